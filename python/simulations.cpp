@@ -41,7 +41,7 @@ py::dict report_facts(const SimulationReport& report, const BuiltCase& c) {
   py::list events;
   for (const RunEvent& event : report.events) events.append(event_facts(event, c));
   PlainFindings warnings;
-  if (const auto warning = energy_warning(c.case_file.path, report)) warnings = plain({*warning});
+  if (const auto warning = energy_warning(c.case_file, report)) warnings = plain({*warning});
   return py::dict("status"_a = outcome_text(report, c.built().model),
                   "done"_a = report.status == SimulationStatus::done, "time"_a = report.time,
                   "steps"_a = report.steps, "rejected_steps"_a = report.rejected_steps,

@@ -94,8 +94,10 @@ ChildResult result_of(const std::string& bytes) {
   return {Status::failed, "", text};
 }
 
-ChildResult result_of(int wait_status) {
-  if (!WIFSIGNALED(wait_status)) return {Status::crashed, "", "it ended without a report"};
+ChildResult result_of(int wait_status, const std::filesystem::path& program) {
+  if (!WIFSIGNALED(wait_status))
+    return {Status::not_started, "",
+            program.string() + " ended without an answer; it must be the program of this version of nurbeam"};
   const int number = WTERMSIG(wait_status);
   if (number == SIGXCPU) return {Status::timed_out, "", ""};
   return {Status::crashed, "", strsignal(number)};
@@ -202,7 +204,7 @@ ChildResult run_program(const std::filesystem::path& program, const std::string&
   answer.reset();
   const int wait_status = in_time ? wait_for_end(child, deadline) : reap(child);
   if (is_complete(bytes)) return result_of(bytes);
-  if (in_time) return result_of(wait_status);
+  if (in_time) return result_of(wait_status, program);
   return {Clock::now() < deadline ? Status::interrupted : Status::timed_out, "", ""};
 }
 

@@ -17,6 +17,8 @@ struct ChildLimits {
 
 /// How a child process ended, and what it sent.
 struct ChildResult {
+  /// crashed: by a signal; not_started: there is no such program, or another one, which ends without an
+  /// answer.
   enum class Status { finished, failed, out_of_memory, timed_out, interrupted, crashed, not_started };
 
   Status status;

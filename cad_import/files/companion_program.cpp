@@ -24,8 +24,13 @@ std::filesystem::path this_library() {
 std::filesystem::path CompanionProgram::find() const {
   namespace fs = std::filesystem;
   std::vector<fs::path> places;
-  if (const char* named = std::getenv(variable.c_str())) places.emplace_back(named);
   std::error_code error;
+  if (const char* named = std::getenv(variable.c_str())) {
+    if (fs::is_regular_file(named, error)) return named;
+    throw std::runtime_error("the environment variable " + variable + " names " + named +
+                             ", which is no file; name the program " + name + ", which " + purpose +
+                             ", or unset it");
+  }
   for (const fs::path& own : {fs::read_symlink("/proc/self/exe", error).parent_path(), this_library()})
     if (!own.empty())
       for (const std::string& beside : {std::string("."), std::string("../libexec/nurbeam"), "../" + folder,

@@ -45,6 +45,22 @@ CaseAxis::File read_axis_file(const Json& axis, const std::filesystem::path& dir
   return file;
 }
 
+// With a greater ratio all but a sliver of the parameter lies at one control point. Only ratios matter: where
+// products with points might overflow they are divided by a power of two, which changes no digit.
+bool scale_weights(std::vector<double>& weights, const std::string& path, Findings& findings) {
+  constexpr double greatest_ratio = 1e9;
+  const auto [least, largest] = std::minmax_element(weights.begin(), weights.end());
+  if (*largest > greatest_ratio * *least) {
+    findings.error(path, "are from " + text_of(*least) + " to " + text_of(*largest) +
+                             "; the largest may be at most " + text_of(greatest_ratio, 1) +
+                             " times the smallest");
+    return false;
+  }
+  if (const int exponent = std::ilogb(*largest); std::abs(exponent) > 64)
+    for (double& weight : weights) weight = std::ldexp(weight, -exponent);
+  return true;
+}
+
 std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path, Findings& findings) {
   const std::vector<Eigen::Vector3d> points_in = points(nurbs, "control_points");
   const std::vector<double> knots = numbers(nurbs, "knots");
@@ -60,6 +76,7 @@ std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path,
                              " control points; give one per control point");
     return {};
   }
+  if (!scale_weights(weights, child(path, "weights"), findings)) return {};
   Eigen::Matrix3Xd control_points(3, points_in.size());
   for (std::size_t i = 0; i < points_in.size(); ++i) control_points.col(i) = points_in[i];
   try {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_axis.h"
+#include "pipelines/case/case_keys.h"
 #include "pipelines/case/standard_materials.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -46,11 +48,12 @@ CaseSection i_section(const Json& section, const std::string& path, Findings& fi
   const Json& json = part(section, "i_section");
   const double x = number(json, "width") / 2, y = number(json, "height") / 2;
   const double web = number(json, "web") / 2, inner = y - number(json, "flange");
-  if (!(inner > 0))
+  // Comparisons with a missing (NaN) size are false: it has been reported.
+  if (inner <= 0)
     findings.error(child(path, "flange"), "is " + text_of(number(json, "flange")) +
                                               " m; two flanges must be thinner than the height, " +
                                               text_of(2 * y) + " m");
-  if (!(web < x))
+  if (web >= x)
     findings.error(child(path, "web"),
                    "is " + text_of(2 * web) + " m; must be less than the width, " + text_of(2 * x) + " m");
   return {.torsion_constant = optional_number(section, "torsion_constant"),
@@ -231,6 +234,11 @@ AxialStrain read_axial_strain(const Json& json, const std::string& path, const C
   return strain;
 }
 
+/// Others have been reported.
+bool is_key_of_beams(const std::string& name) {
+  return find_key(find_key(case_keys(), "beams")->shape.items[0], name) != nullptr;
+}
+
 /// Reports what a rigid guide takes no more, and what every other beam needs.
 void check_guide(const Json& json, const CaseBeam& beam, Findings& findings) {
   if (!beam.rigid) {
@@ -242,7 +250,7 @@ void check_guide(const Json& json, const CaseBeam& beam, Findings& findings) {
   static const std::set<std::string> known = {
       "name", "axis", "rigid", "closed", "corners", "smooth_up_to", "approximation_tolerance"};
   for (const auto& [key, value] : json.items())
-    if (!known.contains(key))
+    if (!known.contains(key) && is_key_of_beams(key))
       findings.error(child(beam.path, key),
                      "is for beams that deform, but \"rigid\" makes this one a guide; "
                      "leave one of them out");

@@ -205,7 +205,10 @@ class Checker {
     if (!value.is_string()) return wrong_type(shape, value, path);
     const auto text = value.get<std::string>();
     if (text.empty()) return failed(path, "is empty");
-    const auto is_barred = [](char c) { return c == ',' || c == '"' || (c >= 0 && c < ' '); };
+    constexpr char delete_character = 0x7f;
+    const auto is_barred = [](char c) {
+      return c == ',' || c == '"' || (c >= 0 && c < ' ') || c == delete_character;
+    };
     if (shape.kind == Kind::name && std::any_of(text.begin(), text.end(), is_barred))
       return failed(path, in_quotes(text) + ": a name must not hold commas, quotes or control characters");
     return true;

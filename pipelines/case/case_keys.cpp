@@ -18,6 +18,8 @@ Range time_step() { return plausible(1e-12, 1e9); }
 Range element_count() {
   return {.lower = 1, .upper = most_elements, .reason = "the most elements of one beam"};
 }
+/// In the world.
+Shape point() { return vector(Dimension::length, plausible(-1e9, 1e9)); }
 /// Of a point of a section.
 Shape offset() {
   Shape shape = array(quantity(Dimension::length, plausible(-1e4, 1e4)), 2);
@@ -46,7 +48,7 @@ Shape place() {
                "reference arc length from the beam's start"},
               {"fraction", quantity(Dimension::number, {.lower = 0, .upper = 1}),
                "fraction of the beam's reference length"},
-              {"near", vector(Dimension::length), "the place of the drawn axis nearest to this point"},
+              {"near", point(), "the place of the drawn axis nearest to this point"},
               {"within", quantity(Dimension::length, not_negative()),
                "greatest distance of that point from the axis; 1 % of the beam's length when omitted", false,
                "near"}},
@@ -54,17 +56,17 @@ Shape place() {
 }
 
 Shape axis() {
-  const Shape nurbs = object({{"degree", integer(from(1)), "degree of the curve", required},
-                              {"knots", array(quantity(Dimension::number), 4),
-                               "full non-decreasing knots, both ends included", required},
-                              {"control_points", array(vector(Dimension::length), 2),
-                               "plain (not weighted) control points", required},
-                              {"weights", array(quantity(Dimension::number, positive()), 2),
-                               "one per control point; 1 when omitted"}});
+  const Shape nurbs =
+      object({{"degree", integer(from(1)), "degree of the curve", required},
+              {"knots", array(quantity(Dimension::number), 4),
+               "full non-decreasing knots, both ends included", required},
+              {"control_points", array(point(), 2), "plain (not weighted) control points", required},
+              {"weights", array(quantity(Dimension::number, positive()), 2),
+               "one per control point; 1 when omitted"}});
   const Shape arc =
-      object({{"center", vector(Dimension::length), "centre of the circle", required},
-              {"start", vector(Dimension::length), "start point", required},
-              {"end", vector(Dimension::length), "end point", required},
+      object({{"center", point(), "centre of the circle", required},
+              {"start", point(), "start point", required},
+              {"end", point(), "end point", required},
               {"normal", vector(Dimension::number),
                "the arc turns by the right hand about it; a whole circle where start and end are one point",
                required}});
@@ -77,13 +79,13 @@ Shape axis() {
         "only curves of this part (STEP) or group (IGES): its name, or the end of its path", false, "file"},
        {"layer", any_text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
        {"colour", any_text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
-       {"near", vector(Dimension::length), "the chain of curves nearest to this point", false, "file"},
+       {"near", point(), "the chain of curves nearest to this point", false, "file"},
        {"longest", boolean(), "the longest chain of curves", false, "file"},
        {"chains", choice({"all"}), "every chain becomes a beam: \"name 1\", \"name 2\", ...", false, "file"},
        {"gap", quantity(Dimension::length, not_negative()),
         "ends of curves up to this far apart meet; the file's own resolution when omitted", false, "file"},
        {"nurbs", nurbs, "an inline NURBS curve"},
-       {"polyline", array(vector(Dimension::length), 2), "straight pieces through these points"},
+       {"polyline", array(point(), 2), "straight pieces through these points"},
        {"arc", arc, "a circular arc"}},
       {{{"file", "nurbs", "polyline", "arc"}, required}, {{"curve", "near", "longest", "chains"}, false}});
 }
@@ -167,14 +169,13 @@ Shape elements() {
 Range temperature_range() { return {.lower = -1e4, .upper = 1e4, .reason = "a difference in kelvin"}; }
 
 Shape initial() {
-  const Shape velocity =
-      object({{"translation", vector(Dimension::speed, plausible(-1e9, 1e9)), "of the whole beam"},
-              {"rotation", vector(Dimension::angular_speed, plausible(-1e9, 1e9)),
-               "angular velocity of the whole beam"},
-              {"about", vector(Dimension::length, plausible(-1e9, 1e9)),
-               "a point of the axis of the rotation; the origin when omitted", false, "rotation"},
-              {"along", quantity(Dimension::speed, plausible(-1e9, 1e9)),
-               "of the material along the drawn axis, towards its end"}});
+  const Shape velocity = object(
+      {{"translation", vector(Dimension::speed, plausible(-1e9, 1e9)), "of the whole beam"},
+       {"rotation", vector(Dimension::angular_speed, plausible(-1e9, 1e9)),
+        "angular velocity of the whole beam"},
+       {"about", point(), "a point of the axis of the rotation; the origin when omitted", false, "rotation"},
+       {"along", quantity(Dimension::speed, plausible(-1e9, 1e9)),
+        "of the material along the drawn axis, towards its end"}});
   return object(
       {{"velocity", velocity, "the sum of its parts, as far as supports and joints let it", required}});
 }
@@ -387,7 +388,7 @@ Shape stop() {
 Shape beam_joint() {
   return object({{"beams", array(name(), 2), "the beams that meet", required},
                  {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
-                 {"at", object({{"near", vector(Dimension::length), "a point near the joint", required}}),
+                 {"at", object({{"near", point(), "a point near the joint", required}}),
                   "where, if not at an end of one of them"},
                  {"axis", vector(Dimension::number),
                   "as drawn, of a hinge between beams with torsion, which turn about it alone"},
@@ -395,12 +396,11 @@ Shape beam_joint() {
 }
 
 Shape connector() {
-  const Shape end =
-      object({{"beam", name(), "a beam, at the place `at`"},
-              {"at", place(), "where on that beam", false, "beam"},
-              {"body", name(), "a body"},
-              {"point", vector(Dimension::length, plausible(-1e9, 1e9)), "a point that stays where it is"}},
-             {{{"beam", "body", "point"}, required}});
+  const Shape end = object({{"beam", name(), "a beam, at the place `at`"},
+                            {"at", place(), "where on that beam", false, "beam"},
+                            {"body", name(), "a body"},
+                            {"point", point(), "a point that stays where it is"}},
+                           {{{"beam", "body", "point"}, required}});
   return object(
       {{"name", name(), "heads the columns of its force and length", required},
        {"from", end, "its first end", required},
@@ -463,7 +463,8 @@ Shape analysis() {
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "
         "in full), increasing, or under so many equal steps up to 1; tables over time are read at the "
-        "factor, and a force that moves is there in full where it is at that time; 1 when omitted"},
+        "factor, and a force that moves is there in full where it is at that time; when omitted one state under the "
+        "full loads, at the time 0, or 1 where a table or a moving force is read"},
        {"integrator", integrator, "time integrator"},
        {"length_control", length_control,
         "when elements beside a sliding body change, in standard element lengths"}},
@@ -514,8 +515,7 @@ Shape body() {
         "about the beam, of a body that follows its section; 0 when omitted"},
        {"drag_area", quantity(Dimension::area, plausible(0, 1e6)),
         "drag coefficient times area, of the drag of the `air`; 0 when omitted"},
-       {"position", vector(Dimension::length, plausible(-1e9, 1e9)),
-        "where a body without a sliding joint starts"},
+       {"position", point(), "where a body without a sliding joint starts"},
        {"velocity", vector(Dimension::speed, plausible(-1e9, 1e9)),
         "how fast it starts; at rest when omitted", false, "position"}});
 }

@@ -47,6 +47,12 @@ void check_names(const Json& json, Findings& findings) {
   for (const auto& more : {probes, supports, joints, connectors})
     columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
+  // The columns of a vector belong to the body: "B.joint_force.x".
+  for (const auto& [body, body_path] : collect(json, "bodies", ""))
+    for (const auto& [name, path] : columns)
+      if (name == body + ".joint_force")
+        findings.error(path, in_quotes(name) + " heads the columns of the joint's force on the body " +
+                                 in_quotes(body) + ", of " + body_path + "; give another name");
   // Both have a length in that table.
   for (const auto& [name, path] : connectors)
     for (const auto& [of_beam, beam_path] : beams)
@@ -200,6 +206,29 @@ void check_solids(const CaseFile& c, Findings& findings) {
                          "\"step\" for the curve");
 }
 
+/// Warns of what is said and changes nothing.
+void check_effects(const Json& json, const CaseFile& c, Findings& findings) {
+  if (has(json, "air") &&
+      std::none_of(c.bodies.begin(), c.bodies.end(), [](const CaseBody& body) { return body.drag_area > 0; }))
+    findings.warn("air", "has no effect: it drags bodies by their \"drag_area\" alone, and none has one");
+  if (has(part(json, "output"), "cad") && !c.output.cad_at_all_times && c.output.cad_times.empty())
+    findings.warn("output.cad.times",
+                  "is empty: no CAD file is written; leave it out for one of the last state, or say \"all\"");
+  for (const CaseSupport& support : c.supports) {
+    const auto is_along = [&](const DisplacementTable::Row& row) {
+      constexpr double round_off = 1e-12;
+      const Eigen::Vector3d& moved = row.second;
+      return moved.cross(support.direction->stableNormalized()).norm() <= round_off * moved.norm();
+    };
+    if (support.direction && !support.motion.empty() &&
+        std::all_of(support.motion.begin(), support.motion.end(), is_along))
+      findings.warn(
+          child(support.path, "motion"),
+          "has no effect: it is along \"direction\", where the support is free; to push there, give "
+          "a \"force\", or pin it");
+  }
+}
+
 void check_brep(const CaseFile& c, Findings& findings) {
   const std::vector<std::string>& formats = c.output.cad_formats;
   if (std::find(formats.begin(), formats.end(), "brep") != formats.end() && c.output.cad_unit != "mm")
@@ -240,6 +269,7 @@ void check_across(const Json& json, const CaseFile& case_file, Findings& finding
   check_times(json, case_file, findings);
   check_modes(case_file, findings);
   check_solids(case_file, findings);
+  check_effects(json, case_file, findings);
   check_brep(case_file, findings);
   check_source(case_file, findings);
 }

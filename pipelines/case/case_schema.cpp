@@ -84,7 +84,7 @@ Json schema_of(const Shape& shape) {
     case Kind::text:
       return {{"type", "string"}, {"minLength", 1}};
     case Kind::name:
-      return {{"type", "string"}, {"pattern", "^[^,\"\\u0000-\\u001f]+$"}};
+      return {{"type", "string"}, {"pattern", "^[^,\"\\u0000-\\u001f\\u007f]+$"}};
     case Kind::boolean:
       return {{"type", "boolean"}};
     case Kind::integer:

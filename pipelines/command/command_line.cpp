@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 #include "pipelines/command/commands.h"
@@ -107,6 +108,9 @@ int run_command_by_name(const std::vector<std::string>& words, Streams streams) 
     return exit_bad_input;
   } catch (const std::invalid_argument& error) {
     return fail(exit_bad_input, error);
+  } catch (const std::filesystem::filesystem_error& error) {
+    streams.err << "error: " << error.path1().string() << ": " << error.code().message() << '\n';
+    return command.failure;
   } catch (const std::exception& error) {
     return fail(command.failure, error);
   }

@@ -58,6 +58,11 @@ std::vector<ImportedCurve> sides_of(const std::vector<Eigen::Vector2d>& corners)
   return sides;
 }
 
+// Its JSON path: there may be numbers instead.
+std::string place_of_profile(const CaseBeam& beam) {
+  return beam.path + (beam.section.profile->outline.empty() ? ".section.profile" : ".section");
+}
+
 }  // namespace
 
 std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, CadFiles& files,
@@ -65,7 +70,7 @@ std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, Cad
   if (!beam.section.profile) return BeamSection{beam.section};
   const CaseProfile& source = *beam.section.profile;
   const bool by_numbers = !source.outline.empty();
-  const std::string where = beam.path + (by_numbers ? ".section" : ".section.profile");
+  const std::string where = place_of_profile(beam);
   if (!by_numbers && !files.read(source.path, findings).ok()) return {};
   const std::vector<ImportedCurve> curves =
       by_numbers ? sides_of(source.outline) : files.read(source.path, findings).curves;
@@ -184,7 +189,7 @@ std::optional<TorsionSection> torsion_section(const CaseBeam& beam, double lengt
     return {};
   }
   if (found && found->status != TorsionStatus::no_mesh)
-    check_warping(beam.path + ".section.profile", *section.profile, *found, E / G, length, findings);
+    check_warping(place_of_profile(beam), *section.profile, *found, E / G, length, findings);
   return TorsionSection{
       {E * I_x, E * I_y, 0 - E * sizes.product, G * *J, beam.material.density * (I_x + I_y)},
       stresses_of(section, *J, found)};

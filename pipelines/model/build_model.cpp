@@ -381,6 +381,8 @@ double mass_of(const BeamModel& model) {
   double mass = 0;
   for (const Beam& beam : model.beams) mass += beam.properties.mass_per_length * beam.curve.length();
   for (const Body& body : model.bodies) mass += body.mass;
+  for (const Force& force : model.forces)
+    if (const auto* lump = std::get_if<PlaceMass>(&force); lump && lump->weighs) mass += lump->mass;
   return mass;
 }
 
@@ -518,6 +520,9 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, like, built, findings);
   if (findings.has_errors()) return {};
 
+  check_drawn_sections(case_file.output, resolved.beams, findings);
+  if (!like) check_proportions(resolved.beams, built.model, built.sources, findings);
+  if (findings.has_errors()) return {};
   const JoinedBeams joined = join_beams(resolved, beams, built.frame, findings);
   divide_beams(resolved, beams, joined, built.frame, built.model, findings);
   if (findings.has_errors()) return {};

@@ -1,10 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "fem/model/beam_model.h"
-#include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/findings.h"
-#include "pipelines/model/model_frame.h"
+#include "pipelines/model/build_model.h"
 
 namespace nurbeam {
 
@@ -17,5 +15,13 @@ void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, con
 
 /// Notes what the damping of bars in space without torsion does not reach.
 void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model, Findings& findings);
+
+/// Reports formats of CAD files that draw sections which nothing orients, as those of beams without torsion.
+void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>& beams, Findings& findings);
+
+/// Warns of beams that no theory of beams is for: shorter than twice their sections are thick, or so soft
+/// that their own weight strains them by a tenth. A wrong unit of a number makes such.
+void check_proportions(const std::vector<CaseBeam>& beams, const BeamModel& model,
+                       const std::vector<BeamSource>& sources, Findings& findings);
 
 }  // namespace nurbeam

@@ -41,13 +41,21 @@ std::string name_of(WeightRule rule) {
 
 double drawn_tension(const BeamProperties& p) { return 0 - p.free_strain.of_tension * p.axial_stiffness; }
 
+// Where it carries no axial force; null of what is tighter than any strain of it says.
+Json unstressed_length(const Beam& beam) {
+  const FreeStrain& strain = beam.properties.free_strain;
+  const double stretch_squared = 1 + 2 * (strain.constant + strain.of_tension);
+  return stretch_squared > 0 ? Json(beam.curve.length() * std::sqrt(stretch_squared)) : Json();
+}
+
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
   const double stretch =
       std::sqrt(1 + 2 * p.free_strain.constant);  // of the unstressed over the drawn length
   Json json = {{"name", beam.name},
+               {"curve", source.curve_name},
                {"length [m]", beam.curve.length()},
-               {"unstressed length [m]", beam.curve.length() * stretch},
+               {"unstressed length [m]", unstressed_length(beam)},
                {"mass [kg]", beam.curve.length() * p.mass_per_length},
                {"elements", beam.rigid ? 0 : beam.home.size() - 1},
                {"CAD segments", beam.curve.segment_count()},

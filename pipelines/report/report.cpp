@@ -348,8 +348,9 @@ void write_page(const fs::path& directory, Frames frames) {
   std::ofstream stream;
   try {
     const ReportFrames shown = frames();
+    errno = 0;
     stream.open(temporary_name(file), std::ios::binary);
-    write_report_page(stream, shown, run_json);
+    if (stream) write_report_page(stream, shown, run_json);
   } catch (const std::invalid_argument& error) {
     discard();
     throw std::invalid_argument(directory.string() + ": " + error.what());
@@ -357,7 +358,7 @@ void write_page(const fs::path& directory, Frames frames) {
     discard();
     throw std::invalid_argument(error.what());
   }
-  stream.close();
+  if (stream) stream.close();
   if (!stream) {
     const std::string reason = std::strerror(errno);
     discard();

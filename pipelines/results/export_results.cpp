@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nurbs/bezier_path.h"
+#include "pipelines/results/run_summary.h"
 
 namespace nurbeam {
 
@@ -35,9 +36,13 @@ NurbsCurve deformed_curve(const std::vector<ElementRecord>& elements, CurveParam
 std::pair<double, std::vector<NamedCurve>> stored_curves(const std::filesystem::path& directory, double time,
                                                          CurveParameter parameter) {
   const auto [stored_time, beams] = read_stored_beams(directory, time);
+  const std::map<std::string, std::string> drawn = drawn_curve_names(directory);
   std::vector<NamedCurve> curves;
-  for (const StoredBeam& beam : beams)
-    curves.push_back({beam.name, deformed_curve(beam.elements, parameter)});
+  for (const StoredBeam& beam : beams) {
+    const auto curve = drawn.find(beam.name);
+    curves.push_back({curve == drawn.end() ? beam.name : curve->second,
+                      deformed_curve(beam.elements, parameter), beam.name});
+  }
   return {stored_time, curves};
 }
 

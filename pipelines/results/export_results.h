@@ -15,8 +15,9 @@ namespace nurbeam {
 NurbsCurve deformed_curve(const std::vector<ElementRecord>& elements,
                           CurveParameter parameter = CurveParameter::free);
 
-/// The deformed axes stored nearest to `time` [s] in a results directory, and the time they were stored at.
-/// Throws as read_stored_beams() does.
+/// The deformed axes stored nearest to `time` [s] in a results directory, under the names of the drawn
+/// curves, each a part under that of its beam, and the time they were stored at. Throws as
+/// read_stored_beams() does.
 std::pair<double, std::vector<NamedCurve>> stored_curves(const std::filesystem::path& directory, double time,
                                                          CurveParameter parameter = CurveParameter::free);
 

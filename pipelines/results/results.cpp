@@ -43,9 +43,14 @@ fs::path chunk_file(const fs::path& directory, std::size_t number) {
   return directory / ("results.chunk" + digits + ".nc");
 }
 
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
 std::vector<fs::path> chunks_in(const fs::path& directory) {
   std::vector<fs::path> chunks;
-  while (fs::exists(chunk_file(directory, chunks.size() + 1)))
+  while (is_there(chunk_file(directory, chunks.size() + 1)))
     chunks.push_back(chunk_file(directory, chunks.size() + 1));
   return chunks;
 }
@@ -183,7 +188,7 @@ struct ResultsWriter::Implementation {
 
   /// Makes the first frames of what is stored the chunks of this run.
   void take_over(std::size_t frames) {
-    if (fs::exists(store_file(directory))) {
+    if (is_there(store_file(directory))) {
       for (const fs::path& file : chunks_in(directory)) fs::remove(file);
       keep_frames(store_file(directory), frames, chunk_file(directory, 1));
       fs::remove(store_file(directory));
@@ -279,12 +284,12 @@ struct StoredFrames::Implementation {
 
 StoredFrames::StoredFrames(const fs::path& directory) : implementation_(std::make_unique<Implementation>()) {
   implementation_->file = store_file(directory);
-  if (fs::exists(store_file(directory)))
+  if (is_there(store_file(directory)))
     implementation_->files.emplace_back(store_file(directory));
   else
     for (const fs::path& file : chunks_in(directory)) implementation_->files.emplace_back(file);
   if (implementation_->files.empty())
-    fail(store_file(directory), fs::is_directory(directory)
+    fail(store_file(directory), is_there(directory)
                                     ? "does not exist; expected a directory that `nurbeam run` has written"
                                     : "does not exist, nor does its directory");
   for (const FrameReader& reader : implementation_->files)

@@ -24,7 +24,7 @@ bool is_of_a_run(const std::string& name) {
   static const std::regex ours(
       R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|frames\.pvd|)"
       R"(modes\.csv|mode_[0-9]+\.pvd|report\.html)(\.part)?|)"
-      R"(run\.log|deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_section_lines|_source)?\.(step|igs)(\.part[0-9]+)?)");
+      R"(run\.log|deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_section_lines|_source)?\.(step|igs|dxf|brep)(\.part[0-9]+)?)");
   return std::regex_match(name, ours);
 }
 

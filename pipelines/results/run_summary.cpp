@@ -1,5 +1,6 @@
 #include "pipelines/results/run_summary.h"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -128,6 +129,17 @@ void write_run_summary(const std::filesystem::path& file, const RunSummary& summ
   const std::string text = to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   for (const Diagnostic& problem : write_at_once(file, text))
     throw std::runtime_error(problem.where + ": " + problem.message);
+}
+
+std::map<std::string, std::string> drawn_curve_names(const std::filesystem::path& directory) {
+  std::ifstream stream(directory / "run.json", std::ios::binary);
+  const Json run = Json::parse(stream, nullptr, false);
+  std::map<std::string, std::string> names;
+  const Json::json_pointer beams("/model/beams");
+  if (run.is_object() && run.contains(beams))
+    for (const Json& beam : run[beams])
+      if (beam.contains("curve")) names[beam.at("name")] = beam["curve"];
+  return names;
 }
 
 }  // namespace nurbeam

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -71,5 +72,9 @@ struct RunSummary {
 /// Writes the summary as JSON, to a temporary name that is renamed. Numbers that are not finite become null.
 /// Throws std::runtime_error (file and reason).
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary);
+
+/// Of each beam of the run, as that says in a results directory, its name and that of its drawn curve; empty
+/// where it says nothing, as of a run that was killed.
+std::map<std::string, std::string> drawn_curve_names(const std::filesystem::path& directory);
 
 }  // namespace nurbeam

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -55,9 +56,26 @@ bool CadOutput::is_wanted(const Snapshot& frame) const {
   const bool one_frame =
       case_.analysis.type == CaseAnalysis::Type::statics && case_.analysis.load_factors.empty();
   if (one_frame || case_.output.cad_at_all_times) return true;
-  const double same = 1e-9 * std::max(case_.analysis.end_time, 1e-9);
-  return std::any_of(case_.output.cad_times.begin(), case_.output.cad_times.end(),
-                     [&](double t) { return std::abs(t - frame.time) < same; });
+  return std::ranges::any_of(case_.output.cad_times, [&](double t) { return is_same_time(t, frame.time); });
+}
+
+bool CadOutput::is_same_time(double a, double b) const {
+  return std::abs(a - b) < 1e-9 * std::max(case_.analysis.end_time, 1e-9);
+}
+
+std::string CadOutput::time_text(double time) const {
+  constexpr int usual_digits = 6, most_digits = std::numeric_limits<double>::max_digits10;
+  const auto text = [](double t, int digits) {
+    std::ostringstream stream;
+    stream << std::setprecision(digits) << t;
+    return stream.str();
+  };
+  int digits = usual_digits;
+  const auto is_other = [&](double t) {
+    return !is_same_time(t, time) && text(t, digits) == text(time, digits);
+  };
+  while (digits < most_digits && std::ranges::any_of(case_.output.cad_times, is_other)) ++digits;
+  return text(time, digits);
 }
 
 // Numbers of one width, so that the names sort as the frames follow each other.
@@ -69,7 +87,7 @@ std::string CadOutput::stem(const Snapshot& frame) const {
   if (statics && (factors.empty() || (!case_.output.cad_at_all_times && case_.output.cad_times.size() == 1)))
     return name.str();
   if (!case_.output.cad_at_all_times) {
-    name << "_t" << frame.time;
+    name << "_t" << time_text(frame.time);
     return name.str();
   }
   const double last = statics              ? static_cast<double>(factors.size())

@@ -218,8 +218,9 @@ class Run {
     }
     for (const auto& warning :
          {compression_warning(case_.path, outputs.least_strain()), divergence_warning(case_.path, simulated),
-          snap_warning(case_.path, simulated), energy_warning(case_.path, simulated),
-          short_steps_note(case_.path, simulated)}) {
+          snap_warning(case_.path, simulated), energy_warning(case_, simulated),
+          short_steps_note(case_.path, simulated),
+          summary_.modes ? fewer_modes_note(case_, *summary_.modes) : std::nullopt}) {
       if (!warning) continue;
       print_diagnostics(messages_, {*warning});
       print_diagnostics(*log_, {*warning});

@@ -45,6 +45,14 @@ std::vector<ProbePlace> probe_places(const BuiltModel& built) {
   return places;
 }
 
+std::optional<Diagnostic> fewer_modes_note(const CaseFile& c, const ModeTable& table) {
+  const std::size_t asked = static_cast<std::size_t>(c.analysis.modes.count), found = table.rows.size();
+  if (found >= asked) return {};
+  return Diagnostic{Severity::note, c.path.string() + ": analysis.modes.count",
+                    "is " + std::to_string(asked) + ", but the model has " + std::to_string(found) +
+                        (table.buckling ? " buckling factors" : " modes") + "; more elements have more"};
+}
+
 std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain) {
   constexpr double nothing_left = -0.5;  // Green's strain of a length of zero
   if (strain.value > nothing_left) return {};
@@ -86,7 +94,7 @@ std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const 
           "goes from there"};
 }
 
-std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run) {
+std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {
   const double noticed = std::max(0.05 * run.energy_scale(), run.energy_round_off());
   const bool between_events = run.integration_error > noticed;
   if (!between_events && !(run.energy_drift > noticed)) return {};
@@ -95,12 +103,16 @@ std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, cons
           << (between_events ? run.integration_error : run.energy_drift)
           << " J, where kinetic, strain and gravity energy change by up to " << run.energy_scale()
           << " J: do not trust the result; ";
-  if (between_events)
+  if (std::ranges::any_of(c.beams, [](const CaseBeam& beam) { return beam.form == Form::virtual_work; }))
+    message
+        << "\"form\": \"virtual-work\" is the papers', for comparison, whose elements lose and win energy "
+           "as they move over the material: leave it out";
+  else if (between_events)
     message << "take a shorter \"step\" or a \"tolerance\"";
   else
     message << "nodes were removed where the mesh is too coarse: take more elements or, for a cable that "
                "hardly resists bending, \"slope\": \"discontinuous\"";
-  return Diagnostic{Severity::warning, file.string() + ": analysis", message.str()};
+  return Diagnostic{Severity::warning, c.path.string() + ": analysis", message.str()};
 }
 
 }  // namespace nurbeam

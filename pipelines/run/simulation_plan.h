@@ -16,6 +16,9 @@ SimulationOptions simulation_options(const CaseFile& case_file);
 /// Where the probes of a model are.
 std::vector<ProbePlace> probe_places(const BuiltModel& built);
 
+/// A note where an analysis of modes or buckling was asked for more of them than there are.
+std::optional<Diagnostic> fewer_modes_note(const CaseFile& case_file, const ModeTable& table);
+
 /// A warning where an element is compressed to nothing; `file` heads it.
 std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain);
 
@@ -28,7 +31,7 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
 /// A warning where loads have led past the end of a branch of equilibria; `file` heads it.
 std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run);
 
-/// A warning where energy comes from nowhere or is lost; `file` heads it.
-std::optional<Diagnostic> energy_warning(const std::filesystem::path& file, const SimulationReport& run);
+/// A warning where energy comes from nowhere or is lost.
+std::optional<Diagnostic> energy_warning(const CaseFile& case_file, const SimulationReport& run);
 
 }  // namespace nurbeam

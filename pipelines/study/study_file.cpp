@@ -15,6 +15,7 @@
 #include "pipelines/case/case_values.h"
 #include "pipelines/case/table_files.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/study/analysis.h"
 #include "pipelines/study/study_keys.h"
 #include "pipelines/study/study_parts.h"
 
@@ -58,6 +59,7 @@ class StudyReader : StudyPartReader {
                   [&](const Json& item, const std::string& path) { read_quantity(item, path); });
     check_derived();
     read_study_task(json_, study_, findings_);
+    check_effects();
     study_.seed = static_cast<unsigned>(number(json_, "seed", 1));
     study_.time_limit = optional_number(json_, "time_limit");
   }
@@ -256,6 +258,29 @@ class StudyReader : StudyPartReader {
                           "sets " + place + ", as " + in_quotes(owner->second) +
                               " does; one variable can set it, with a \"value\" made of others");
     }
+  }
+
+  // Warns of variables that change nothing.
+  void check_effects() {
+    std::set<std::string> named;
+    const auto collect = [&](const Expression& expression) {
+      for (std::string& name : expression.names()) named.insert(std::move(name));
+    };
+    for (const StudyVariable& variable : study_.variables)
+      if (variable.derived) collect(*variable.derived);
+    for (const Expression& constraint : study_.constraints) collect(constraint);
+    for (const StudyQuantity& quantity : study_.quantities) collect(quantity.value);
+    if (const auto* optimum = std::get_if<StudyOptimum>(&study_.task))
+      for (const StudyOptimum::Constraint& constraint : optimum->constraints) {
+        collect(constraint.greater);
+        collect(constraint.lesser);
+      }
+    for (const StudyVariable& variable : study_.variables)
+      if (!variable.target && !variable.derived && !variable.name.empty() && !named.contains(variable.name))
+        findings_.warn(variable.path,
+                       in_quotes(variable.name) +
+                           " changes nothing: it has no place in the case (\"path\", "
+                           "\"control_point\", \"weight\", \"transform\"), and no expression names it");
   }
 
   // Of variables alone.

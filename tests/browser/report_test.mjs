@@ -297,6 +297,14 @@ report_test('loads are drawn where they act', still, {}, async (page) => {
   assert.notEqual((await picture(page)).hash, drawn_loads);
 });
 
+report_test('a torque along a beam is drawn about its axis', 'torque/report.html', {}, async (page) => {
+  assert.equal(await page.$eval('#stage', (stage) => stage.classList.contains('broken')), false);
+  await page.screenshot({ path: join(shots, 'torque.png') });
+  const drawn_loads = (await picture(page)).hash;
+  await page.uncheck('#loads');
+  assert.notEqual((await picture(page)).hash, drawn_loads);
+});
+
 /** How high the hued pixels are in the columns from `from` to `to`, parts of the beam's extent. */
 function height_between({ points, left, right }, from, to) {
   const inside = points.filter(([x]) => x >= left + from * (right - left) && x <= left + to * (right - left));

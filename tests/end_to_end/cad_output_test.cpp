@@ -77,6 +77,15 @@ TEST_F(CadOutputTest, ListedTimesKeepTheirNames) {
   EXPECT_EQ(cad_files(), std::vector<std::string>{"deformed_t0.05.step"});
 }
 
+TEST_F(CadOutputTest, TimesThatSixDigitsDoNotTellApartHaveMore) {
+  ASSERT_EQ(run_case(R"({"times": [0.01, 0.0123456788, 0.0123456789, 0.02000001], "formats": ["step"]})"), 0)
+      << messages;
+  EXPECT_EQ(cad_files(), (std::vector<std::string>{"deformed_t0.01.step", "deformed_t0.0123456788.step",
+                                                   "deformed_t0.0123456789.step", "deformed_t0.02.step"}));
+  ASSERT_EQ(run_case(R"({"times": [0.01], "formats": ["step"]})"), 0) << messages;
+  EXPECT_EQ(cad_files(), std::vector<std::string>{"deformed_t0.01.step"});
+}
+
 TEST_F(CadOutputTest, AnUndeformedStraightCableIsALineAgain) {
   ASSERT_EQ(run_case(R"({"times": [0]})"), 0) << messages;
   const NurbsCurve curve = only_curve(results / "deformed_t0.step");
@@ -204,6 +213,23 @@ TEST_F(CadOutputTest, TheSourceGetsTheDeformedShapeInPlaceOfTheDrawnOne) {
   const ImportReport undeformed = import_curves(results / "deformed_t0_source.step");
   EXPECT_EQ(undeformed.curves.at(1).curve.control_points().cols(), 5);
   EXPECT_LE((middle(undeformed.curves[1].curve) - middle(before.curves[1].curve)).norm(), 1e-12);
+}
+
+TEST_F(CadOutputTest, ExportGivesTheCurveTheNameOfTheDrawing) {
+  drawing(directory);
+  ASSERT_EQ(run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
+                 "analysis.end_time=0.01", "--set", "beams[0].name=rope", "--set", "supports[0].beam=rope",
+                 "--set", R"(beams[0].axis={"file": "drawing.step", "curve": "cable"})"}),
+            0)
+      << messages;
+  const auto exported = [&] {
+    const std::string file = (directory.path() / "deformed.step").string();
+    EXPECT_EQ(run({"export", results.string(), "--time", "0.01", "--to", file}), 0) << messages;
+    return import_curves(file).curves.at(0).name;
+  };
+  EXPECT_EQ(exported(), "cable");
+  std::filesystem::remove(results / "run.json");  // which a run that is killed does not write
+  EXPECT_EQ(exported(), "rope");
 }
 
 TEST_F(CadOutputTest, ASourceThatIsNoStepFileIsRefusedBeforeTheRun) {

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -45,6 +48,29 @@ TEST(UnstressedLength, OfABarBetweenWallsIsItsTension) {
   EXPECT_NEAR(run.last("p.axial_force [N]"), N, 1e-9 * N);
   EXPECT_NEAR(run.last("left.fx [N]"), -N, 1e-9 * N);
   EXPECT_NEAR(run.last("right.fx [N]"), N, 1e-9 * N);
+}
+
+// What the summary calls unstressed is the length that the bar has at rest where only one end is held.
+TEST(UnstressedLength, OfATensionIsThatOfABarThatCarriesIt) {
+  const auto unstressed = [](const std::string& override) {
+    const TemporaryDirectory directory;
+    std::ostringstream out, err;
+    const auto results = directory.path() / "results";
+    EXPECT_EQ(run_command_line({"run", directory.write("case.json", bar).string(), "--quiet", "--out",
+                                results.string(), "--set", override},
+                               out, err),
+              0);
+    std::ifstream stream(results / "run.json");
+    return nlohmann::json::parse(stream)["model"]["beams"][0]["unstressed length [m]"].get<double>();
+  };
+  const std::string tight = "beams[0].tension=5000";
+  const CaseRun free = run_text(
+      bar, {tight, R"(supports=[{"beam": "b", "at": "start", "type": "clamped"}])", "output.probes=[]"});
+  ASSERT_EQ(free.code, 0) << free.messages;
+  EXPECT_NEAR(unstressed(tight), free.last("b.length [m]"), 1e-12);
+  EXPECT_NEAR(unstressed(tight), 2 / (1 + 5000 / EA), 4 * std::pow(5000 / EA, 2));
+  EXPECT_DOUBLE_EQ(unstressed("beams[0].unstressed_length=1.99"), 1.99);
+  EXPECT_DOUBLE_EQ(unstressed("beams[0].tension=0"), 2);
 }
 
 TEST(Temperature, OfABarBetweenWallsIsItsThrust) {

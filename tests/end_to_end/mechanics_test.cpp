@@ -297,6 +297,26 @@ TEST(StaticPlace, FreeAtTheStartOfAMotion) {
   EXPECT_LT(run.last("energy.kinetic [J]"), 1e-4);
 }
 
+// Heights count from the world's origin, whichever end of a beam its axis starts at: m g z of the beam, of
+// the lump at a quarter of its height, and nothing of the mass of what pulls at a support.
+TEST(Connectors, TheirEndMassesHaveTheirHeightFromTheOrigin) {
+  for (const char* ends : {"[[0, 0, 0], [2, 0, 1]]", "[[2, 0, 1], [0, 0, 0]]"}) {
+    const std::string text = R"({ "nurbeam": 1, "gravity": [0, 0, -10],
+      "beams": [{ "name": "w", "axis": { "polyline": )" +
+                             std::string(ends) + R"( }, "elements": { "count": 4 },
+                  "section": { "area": 1e-4, "second_moment": 1e-9 },
+                  "material": { "density": 1000, "youngs_modulus": 1e9 } }],
+      "supports": [{ "beam": "w", "at": "start", "type": "clamped" },
+                   { "beam": "w", "at": "end", "type": "guided", "direction": [0, 0, 1], "force": 1, "mass": 5 }],
+      "connectors": [{ "name": "c", "from": { "beam": "w", "at": { "near": [0.5, 0, 0.25] } },
+                       "to": { "point": [0.5, 0, 3] }, "stiffness": 1, "end_masses": [0.1, 0] }],
+      "analysis": { "end_time": 1e-3, "step": 1e-3 }, "output": { "report": false } })";
+    const CaseRun run = run_mechanics(text, {});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_NEAR(run.value(0, "energy.gravity [J]"), 0.1 * std::sqrt(5) * 10 * 0.5 + 0.1 * 10 * 0.25, 1e-12);
+  }
+}
+
 // What is refused before a run, with the place of it.
 // From where the body is drawn, not from the axis below it: nothing moves.
 TEST(Connectors, MeasureBodiesWithAnOffsetWhereTheseAreDrawn) {

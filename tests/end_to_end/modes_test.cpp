@@ -85,6 +85,24 @@ TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
   EXPECT_FALSE(std::filesystem::exists(results / "frames" / "mode_5_beams_000000.vtu"));
 }
 
+// One element of a planar cantilever: its end has two coordinates of place and two of slope.
+TEST(Modes, OfWhichThereAreFewerThanAskedForAreCounted) {
+  Left left;
+  run_modes_text(R"({ "nurbeam": 1, "gravity": [0, -9.81, 0],
+    "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": "1 cm" },
+                "material": "steel", "elements": { "count": 1 } }],
+    "supports": [{ "beam": "bar", "at": "start", "type": "clamped" }],
+    "analysis": { "type": "modes", "modes": { "count": 50 } }, "output": { "report": false } })",
+                 left);
+  ASSERT_EQ(left.code, 0) << left.messages;
+  const std::size_t found = left.run["modes"].size();
+  EXPECT_LT(found, 50u);
+  const std::string note = "note: " + (left.directory.path() / "case.json").string() +
+                           ": analysis.modes.count: is 50, but the model has " + std::to_string(found) +
+                           " modes";
+  EXPECT_NE(left.messages.find(note), std::string::npos) << left.messages;
+}
+
 // On a stiff hanging arc it is a pendulum, wherever it was drawn: of half of them its mode was missing.
 TEST(Modes, OfABeadThatSlidesAreFoundWhereverItIsDrawn) {
   for (const char* at : {"0.1", "0.35", "0.4", "0.45", "0.55", "0.7"}) {

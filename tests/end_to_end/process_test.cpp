@@ -261,7 +261,7 @@ TEST(Process, AFullDiskEndsWithFourAndLeavesNoHalfFileUnderAFinalName) {
   for (const char* blocks : {"8", "100", "200"}) {
     const TemporaryDirectory directory;
     const auto out = directory.path() / "results";
-    Process run(directory, run_of("0.1", out), std::string("trap '' XFSZ; ulimit -f ") + blocks + ";");
+    Process run(directory, run_of("0.1", out), std::string("ulimit -f ") + blocks + ";");
     EXPECT_EQ(run.code(), not_written) << run.messages();
     EXPECT_NE(run.messages().find("File too large"), std::string::npos) << run.messages();
     for (const auto& entry : std::filesystem::directory_iterator(out)) {
@@ -269,6 +269,18 @@ TEST(Process, AFullDiskEndsWithFourAndLeavesNoHalfFileUnderAFinalName) {
       EXPECT_TRUE(name == "run.log" || name == "histories.csv.part") << name;
     }
   }
+}
+
+TEST(Process, AnExportThatMayNotGrowEndsWithFour) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  Process run(directory, run_of("0.1", out));
+  ASSERT_EQ(run.code(), done) << run.messages();
+  const std::filesystem::path file = directory.path() / "curves.step";
+  Process cut(directory, "export " + out.string() + " --time 0 --to " + file.string(), "ulimit -f 1;");
+  EXPECT_EQ(cut.code(), not_written) << cut.messages();
+  EXPECT_NE(cut.messages().find("File too large"), std::string::npos) << cut.messages();
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 /// Curves made of curves made of curves, each twice: 2^40 of them in a few kilobytes.

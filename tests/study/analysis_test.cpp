@@ -84,7 +84,7 @@ TEST(SobolIndices, OfOneVariableLieWithinTheirIntervalsAsOftenAsThoseSay) {
 TEST(SobolIndices, OfWhatIsTheSameInAllVariantsAreZero) {
   const StudyFile study = study_of(R"json({"nurbeam_study": 1,
     "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
-    "quantities": [{"name": "same", "value": "3 + 0 * x"}, {"name": "f", "value": "x"}],
+    "quantities": [{"name": "same", "value": "3 + 0 * x"}, {"name": "f", "value": "x + 0 * y"}],
     "sensitivity": {"count": 64}})json");
   const SensitivityResult result =
       sobol_indices(study, std::get<StudySensitivity>(study.task), evaluation_of(study));

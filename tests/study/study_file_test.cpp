@@ -42,6 +42,25 @@ TEST(StudyFile, ReadsUnitsByWhatTheVariableIs) {
   EXPECT_EQ(study.time_limit, 120);
 }
 
+TEST(StudyFile, WarnsOfAVariableThatChangesNothing) {
+  const auto warned = [](const std::string& value) {
+    const TemporaryDirectory directory;
+    const StudyFileReport report = read_study_file(directory.write("study.json", R"json({
+      "nurbeam_study": 1,
+      "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}, {"name": "z", "value": "2 * y"}],
+      "quantities": [{"name": "f", "value": ")json" + value + R"json("}], "plan": {"list": [[0, 0]]}})json"));
+    EXPECT_TRUE(report.value);
+    std::string all;
+    for (const Diagnostic& d : report.diagnostics) all += d.where + ": " + d.message + "\n";
+    return all;
+  };
+  EXPECT_EQ(warned("x + z"), "");
+  EXPECT_EQ(warned("x"), "");  // y stands in z, which is a column to be read
+  const std::string of_x = warned("z");
+  EXPECT_NE(of_x.find("variables[0]: \"x\" changes nothing"), std::string::npos) << of_x;
+  EXPECT_EQ(of_x.find("\"y\" changes"), std::string::npos) << of_x;
+}
+
 TEST(StudyFile, SaysAllThatIsWrongAtOnceWithItsPlace) {
   const std::string wrong = wrong_with(R"json({
     "nurbeam_study": 1, "case": "c.json",
@@ -266,8 +285,8 @@ TEST(StudyFile, SaysWhatIsToBeDoneWithWholeNumbers) {
                  "study.json",
                  R"json({"nurbeam_study": 1, "case": "c.json", "variables": [{"name": "x", "range": [0, 1]},
       {"name": "n", "path": "beams[0].elements.count", )json" +
-                     more + R"json(}], "quantities": [{"name": "q", "value": "max(tip.x)"}], )json" + task +
-                     "}"))
+                     more + R"json(}], "quantities": [{"name": "q", "value": "x * max(tip.x)"}], )json" +
+                     task + "}"))
              .diagnostics)
       all += (d.severity == Severity::error ? "error: " : "warning: ") + d.message + "\n";
     return all;

@@ -1,5 +1,5 @@
 // The loads of the model as arrows that stand where they act, and move and grow with them.
-import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from 'three';
+import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshLambertMaterial, Quaternion, TorusGeometry, Vector3 } from 'three';
 
 const y_axis = new Vector3(0, 1, 0);
 const longest = 46, shortest = 16;  // [pixels]
@@ -18,6 +18,15 @@ function arrow(material, is_moment) {
   if (is_moment) {
     part(new ConeGeometry(0.16, 0.3, 20), -0.42);
   }
+  return group;
+}
+
+/** A ring of diameter 1 about y that turns by the right hand, for what acts about an axis inside a beam. */
+function turning_arrow(material) {
+  const group = new Group();
+  const part = (geometry) => group.add(new Mesh(geometry.rotateX(-Math.PI / 2), material));
+  part(new TorusGeometry(0.5, 0.05, 10, 36, 1.5 * Math.PI));
+  part(new ConeGeometry(0.15, 0.3, 20).rotateZ(-Math.PI / 2).translate(0.1, -0.5, 0));
   return group;
 }
 
@@ -41,15 +50,16 @@ export class LoadArrows {
     this.object = new Group();
     this.material = new MeshLambertMaterial();
     this.loads = loads.map((load) => {
-      const is_moment = load.kind.startsWith('moment'), along = load.kind.startsWith('force per');
+      const is_moment = load.kind.startsWith('moment'), along = load.kind.includes('per length');
+      const value = [load.value].flat(), about_axis = value.length === 1;
       const arrows = Array.from({ length: along ? arrows_along : 1 }, () => {
-        const symbol = arrow(this.material, is_moment);
+        const symbol = about_axis ? turning_arrow(this.material) : arrow(this.material, is_moment);
         pin(symbol);
         this.object.add(symbol);
         return symbol;
       });
-      return { ...load, along, arrows, beam: data.names.beams.indexOf(load.beam), size: Math.hypot(...load.value),
-        follows: load.direction !== 'fixed' };
+      return { ...load, along, arrows, beam: data.names.beams.indexOf(load.beam), size: Math.hypot(...value),
+        follows: load.direction !== 'fixed', about_axis };
     });
     data.shapes.load(0);
     const steepest = (rows) => (rows?.length ? Math.max(...rows.map(([, y]) => Math.abs(y))) : 1);
@@ -76,7 +86,11 @@ export class LoadArrows {
           return;
         }
         symbol.position.set(...place.r);
-        turned.set(...load.value).normalize().multiplyScalar(Math.sign(factor));
+        if (load.about_axis) {
+          turned.set(...place.t).multiplyScalar(Math.sign(load.value * factor));
+        } else {
+          turned.set(...load.value).normalize().multiplyScalar(Math.sign(factor));
+        }
         if (load.follows && load.start) {
           turned.applyQuaternion(turn.setFromUnitVectors(new Vector3(...load.start.t), new Vector3(...place.t)));
         }

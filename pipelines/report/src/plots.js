@@ -1,7 +1,7 @@
 // Time histories as small SVG pictures with one common cursor, and fields along the beams.
 import { line_style } from './colours.js';
 import { common_exponent, element, number, number_beside, round_down, scaled_unit } from './format.js';
-import { energy_parts } from './tables.js';
+import { carried_round_off, energy_parts } from './tables.js';
 
 const height = 150, right = 14, top = 10, bottom = 24;
 
@@ -46,7 +46,7 @@ function range_of(series) {
   if (low > high) {
     return [0, 1];
   }
-  const least_span = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || 1e-12;
+  const least_span = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || 1;
   if (high - low < least_span) {
     return [low - least_span, high + least_span];
   }
@@ -348,7 +348,11 @@ export function plots_of(data, at_rest = false) {
     if (of_probes && beams.length) {
       series.push(...names.probes.map((name, i) => ({ name, values: values('probe', i, of_probes) })));
     }
+    const round_off = Math.max(0, ...(data.run?.model?.beams ?? []).map((beam) => carried_round_off(beam, unit)));
     const there = series.filter((one) => one.values.some((value) => !Number.isNaN(value)));
+    if (there.every((one) => one.values.every((value) => !(Math.abs(value) > round_off)))) {
+      for (const one of there) { one.values = one.values.map((value) => 0 * value); }
+    }
     if (there.length) {
       plots.push({ title, unit, id, series: there });
     }

@@ -119,11 +119,16 @@ export function energy_table(data) {
   ];
 }
 
+/** What the round-off of a beam's strains makes of a section force in N or N m; 0 of what is in other units. */
+export function carried_round_off(beam, unit) {
+  const force = 1e-13 * beam['EA [N]'];
+  return { N: force, 'N m': force * beam['length [m]'] }[unit] ?? 0;
+}
+
 /** Whether section forces of a beam, and with them its stresses, are the round-off of its strains. */
 function carries_nothing(beam, extremes) {
-  const most = 1e-13 * beam['EA [N]'];
   return extremes.filter(({ quantity }) => quantity.startsWith(`${beam.name}.`)).every(({ value, unit }) => (
-    !['N', 'N m'].includes(unit) || Math.abs(value) <= (unit === 'N' ? most : most * beam['length [m]'])));
+    !['N', 'N m'].includes(unit) || Math.abs(value) <= carried_round_off(beam, unit)));
 }
 
 /** The extremes of the run; a button shows their time, or the load factor that has no unit. */
@@ -217,9 +222,9 @@ export function values_tables(data) {
       ...rows('probe', data.names.probes, place)]),
     table_of('Joint forces', rows('body', data.names.bodies, [['Fx [N]', 'joint_force.x'], ['Fy [N]', 'joint_force.y'], ['Fz [N]', 'joint_force.z']])),
     table_of('Connectors', rows('connector', data.names.connectors ?? [], [['force [N]', 'force'], ['length [m]', 'length']])),
-    table_of('Reactions', rows('reaction', data.names.reactions, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz'],
+    table_of_columns('Reactions', rows('reaction', data.names.reactions, [['Fx [N]', 'fx'], ['Fy [N]', 'fy'], ['Fz [N]', 'fz'],
       ['Mx [N m]', 'mx'], ['My [N m]', 'my'], ['Mz [N m]', 'mz']])),
-    table_of('Sections at probes', rows('probe', data.names.probes, [['axial force [N]', 'axial_force'],
+    table_of_columns('Sections at probes', rows('probe', data.names.probes, [['axial force [N]', 'axial_force'],
       ['bending moment [N m]', 'moment'], ['moment 1 [N m]', 'moment_1'], ['moment 2 [N m]', 'moment_2'],
       ['torque [N m]', 'torque'], ['twist [rad]', 'twist'], ['shear force [N]', 'shear_force'], ['stress [Pa]', 'stress'],
       ['von Mises stress [Pa]', 'von_mises'],

@@ -6,11 +6,14 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "cad_import/files/companion_program.h"
 #include "tests/support/places.h"
 
 namespace nurbeam {
@@ -50,7 +53,7 @@ TEST(ChildProcess, ACrashIsAResult) {
   }
 }
 
-TEST(ChildProcess, AnExitWithoutAReportIsAResult) { EXPECT_EQ(run("exit").status, Status::crashed); }
+TEST(ChildProcess, AnExitWithoutAReportIsAResult) { EXPECT_EQ(run("exit").status, Status::not_started); }
 
 TEST(ChildProcess, AnEndlessLoopEndsAtTheTimeLimit) {
   const auto begin = std::chrono::steady_clock::now();
@@ -102,6 +105,27 @@ TEST(ChildProcess, AProgramThatIsNotThereIsAResultThatNamesIt) {
   const ChildResult result = run_program("/no/such/program", "x", {});
   EXPECT_EQ(result.status, Status::not_started);
   EXPECT_NE(result.complaint.find("/no/such/program"), std::string::npos);
+}
+
+TEST(ChildProcess, AProgramThatIsAnotherOneIsAResultThatNamesIt) {
+  const ChildResult result = run_program("/bin/true", "x", {});
+  EXPECT_EQ(result.status, Status::not_started);
+  EXPECT_NE(result.complaint.find("/bin/true"), std::string::npos);
+}
+
+TEST(CompanionProgram, ThatAVariableNamesMustBeThere) {
+  const CompanionProgram program{"nurbeam-cad", "reads", "NURBEAM_TEST_PROGRAM", "cad_import"};
+  ::setenv("NURBEAM_TEST_PROGRAM", "/bin/true", 1);
+  EXPECT_EQ(program.find(), "/bin/true");
+  ::setenv("NURBEAM_TEST_PROGRAM", "/no/such/program", 1);
+  try {
+    program.find();
+    ADD_FAILURE() << "another one is taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("NURBEAM_TEST_PROGRAM names /no/such/program"),
+              std::string::npos);
+  }
+  ::unsetenv("NURBEAM_TEST_PROGRAM");
 }
 
 TEST(ChildProcess, ManyThreadsMayAskAtOnce) {

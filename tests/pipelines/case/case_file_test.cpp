@@ -330,8 +330,13 @@ TEST_F(CaseFileTest, ReferencesToUnknownNamesListTheNames) {
 
 TEST_F(CaseFileTest, NamesMustDifferAndHeadColumns) {
   expect_error({"output.probes[0].name=trolley"}, "output.probes[0].name", {"bodies[0].name"}, full_case);
+  expect_error({"output.probes[0].name=trolley.joint_force"}, "output.probes[0].name",
+               {"\"trolley\"", "bodies[0].name"}, full_case);
   expect_error({"beams[0].name=a,b", "supports=[]"}, "beams[0].name", {"commas"});
   expect_error({R"(beams[0].name="")", "supports=[]"}, "beams[0].name", {"is empty"});
+  for (const char* control : {"\\u0001", "\\u001f", "\\u007f"})  // as std::iscntrl has them
+    expect_error({std::string("beams[0].name=\"a") + control + "\"", "supports=[]"}, "beams[0].name",
+                 {"control characters"});
 }
 
 TEST_F(CaseFileTest, ABodyIsHeldByExactlyOneSlidingJoint) {
@@ -365,6 +370,41 @@ TEST_F(CaseFileTest, ImpossibleAxesAreRefused) {
       {R"(beams[0].axis={"nurbs": {"degree": 1, "knots": [0,0,1,1], "control_points": [[0,0,0],[1,0,0]],
                    "weights": [1, 1, 1]}})"},
       "beams[0].axis.nurbs", {"3 weights", "2 control points"});
+}
+
+std::string line_with_weights(const std::string& weights) {
+  return R"(beams[0].axis={"nurbs": {"degree": 1, "knots": [0,0,1,1], "control_points": [[0,0,0],[1,0,0]],
+              "weights": )" +
+         weights + "}}";
+}
+
+TEST_F(CaseFileTest, WeightsOfACurveSayTheirRatiosAlone) {
+  for (const char* weights : {"[1e300, 5e299]", "[2, 1]", "[3e-300, 15e-301]"}) {
+    const CaseFile c = read_valid(smallest_case, {line_with_weights(weights)});
+    const auto& curve = std::get<NurbsCurve>(c.beams[0].axis.source);
+    EXPECT_NEAR(curve.point(0.5).x(), 1.0 / 3, 1e-15) << weights;
+    EXPECT_LE(curve.control_points().row(3).maxCoeff(), 2) << weights;
+  }
+  expect_error({line_with_weights("[1, 1e300]")}, "beams[0].axis.nurbs.weights",
+               {"from 1 to 1e+300", "1e+09 times"});
+  expect_error({line_with_weights("[1e-300, 1]")}, "beams[0].axis.nurbs.weights", {"from 1e-300 to 1"});
+}
+
+TEST_F(CaseFileTest, WhatIsOutOfItsRangeIsNotComparedBesides) {
+  const auto section = [](const std::string& sizes) {
+    return R"(beams[0].section={"i_section": )" + sizes + "}";
+  };
+  expect_error({section(R"({"width": 0.1, "height": 0.1, "flange": 0, "web": 0.01})")},
+               "beams[0].section.i_section.flange", {"0 m"});
+  expect_error({section(R"({"width": 1e-300, "height": 0.1, "flange": 0.01, "web": 0.01})")},
+               "beams[0].section.i_section.width", {"1e-300 m"});
+}
+
+TEST_F(CaseFileTest, PointsHaveALimit) {
+  expect_error({R"(supports[0].at={"near": [0, 1e300, 0]})"}, "supports[0].at.near[1]",
+               {"1e+300 m", "1e+09"});
+  expect_error({R"(beams[0].axis={"polyline": [[0, 0, 0], [1e300, 0, 0]]})"}, "beams[0].axis.polyline[1][0]",
+               {"1e+300 m"});
 }
 
 TEST_F(CaseFileTest, AMissingCadFileNamesTheClosestFile) {
@@ -528,6 +568,36 @@ void collect_used_keys(const Json& value, std::set<std::string>& keys) {
     if (value.is_object()) keys.insert(key);
     if (item.is_structured()) collect_used_keys(item, keys);
   }
+}
+
+TEST_F(CaseFileTest, WhatChangesNothingIsWarnedOf) {
+  const auto warned = [&](const std::vector<std::string>& overrides) {
+    const CaseFileReport report = read(full_case, overrides);
+    EXPECT_TRUE(report.value) << messages(report);
+    return messages(report);
+  };
+  const auto has = [](const std::string& said, const std::string& part) {
+    return said.find(part) != std::string::npos;
+  };
+  const std::string air = R"(air={"density": 1.2, "wind": [10, 0, 0]})";
+  EXPECT_TRUE(has(warned({air}), "air | has no effect")) << warned({air});
+  EXPECT_FALSE(has(warned({air, "bodies[0].drag_area=0.5"}), "air |"));
+  EXPECT_TRUE(has(warned({"output.cad.times=[]"}), "output.cad.times | is empty"));
+  EXPECT_FALSE(has(warned({"output.cad.times=all"}), "output.cad.times"));
+  const auto guided = [](const char* moves) {
+    return std::string(
+               R"(supports[0]={"beam": "cable", "at": "start", "type": "guided", "direction": [2, 0, 0],)") +
+           R"("motion": [[0, 0, 0, 0], [1, )" + moves + "]]}";
+  };
+  EXPECT_TRUE(has(warned({guided("0.1, 0, 0")}), "supports[0].motion | has no effect"));
+  EXPECT_FALSE(has(warned({guided("0.1, 0.1, 0")}), "supports[0].motion"));
+}
+
+TEST_F(CaseFileTest, AMisspeltKeyOfARigidBeamIsOneError) {
+  expect_error(
+      {R"(beams[0]={"name": "cable", "rigid": true, "axs": 1, "axis": {"polyline": [[0,0,0],[1,0,0]]}})",
+       "supports=[]"},
+      "beams[0].axs", {"unknown key \"axs\"", "did you mean \"axis\""});
 }
 
 TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {

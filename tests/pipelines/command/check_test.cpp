@@ -55,6 +55,43 @@ TEST(CheckCase, SaysOfEachBeamInSpaceWhetherItHasTorsionAndWhy) {
   says({bent, sideways, "beams[0].torsion=false"}, "no, as the case asks for an element without it");
 }
 
+// Of a beam of 1 m; 7200 kg/m^3 x 9.81 m/s^2 x 1 m over the modulus is the strain of its own weight.
+TEST(CheckCase, WarnsOfWhatIsNoBeam) {
+  const auto warned = [](const std::vector<std::string>& overrides) { return checked_both(overrides).err; };
+  const auto has = [](const std::string& said, const std::string& part) {
+    return said.find(part) != std::string::npos;
+  };
+  EXPECT_EQ(warned({}), "");
+  const std::string metres = warned({"beams[0].section.radius=10"});
+  EXPECT_TRUE(has(metres, "beams[0].section: is 20 m thick, of a beam 1 m long")) << metres;
+  EXPECT_TRUE(has(warned({"beams[0].section={\"rectangle\": [0.6, 0.7]}"}), "is 0.6 m thick"));
+  EXPECT_FALSE(has(warned({"beams[0].section={\"rectangle\": [0.3, 0.7]}"}), "thick"));  // a wide plate
+  EXPECT_FALSE(has(warned({"beams[0].material.youngs_modulus=1e6"}), "soft"));
+  const std::string soft = warned({"beams[0].material.youngs_modulus=70632"});
+  EXPECT_TRUE(has(soft, "beams[0].material: is so soft that the weight of the beam strains it by 1 ("))
+      << soft;
+  EXPECT_FALSE(has(warned({"beams[0].material.youngs_modulus=70632", "gravity=[0, 0, -0.1]"}), "soft"));
+}
+
+TEST(CheckCase, RefusesFilesOfSectionsThatNothingOrients) {
+  const test::TemporaryDirectory directory;
+  const auto refused = [&](const std::vector<std::string>& overrides) {
+    std::vector<std::string> all = {R"(output.cad={"formats": ["step", "step-section-lines"]})"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case), all);
+    std::ostringstream out, err;
+    const int code = check_case(report.value.value(), out, err);
+    return std::pair{code, err.str()};
+  };
+  const auto [code, said] = refused({});
+  EXPECT_EQ(code, 2);
+  EXPECT_NE(
+      said.find("output.cad.formats[1]: is \"step-section-lines\", but the beam \"cable\" has no torsion"),
+      std::string::npos)
+      << said;
+  EXPECT_EQ(refused({"beams[0].torsion=true", "supports[0].type=clamped"}).first, 0);
+}
+
 TEST(CheckCase, GivesTheHolonomyOfRings) {
   const std::string ring =
       R"(beams[0].axis={"nurbs": {"degree": 3, "knots": [0, 0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1, 1],

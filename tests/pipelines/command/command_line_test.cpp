@@ -116,6 +116,17 @@ TEST(CommandLine, ABadCaseFileEndsWithTwoAndItsPlace) {
   EXPECT_EQ(run_line({"run", (directory.path() / "absent.json").string()}).code, 2);
 }
 
+TEST(CommandLine, ANameThatNoFileSystemTakesIsNamed) {
+  const std::string name(300, 'a');
+  for (const std::vector<std::string>& line : {std::vector<std::string>{"check", name + ".json"},
+                                               {"export", name, "--time", "0", "--to", "x.step"}}) {
+    const CommandOutcome outcome = run_line(line);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err.find("filesystem error"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(text_holds(outcome.err, "error: " + name)) << outcome.err;
+  }
+}
+
 TEST(CommandLine, TheSchemaIsPrinted) {
   EXPECT_TRUE(Json::parse(run_line({"schema"}).out).contains("properties"));
   EXPECT_EQ(run_line({"schema", "case"}).out, run_line({"schema"}).out);

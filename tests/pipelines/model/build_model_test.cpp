@@ -235,6 +235,17 @@ TEST(BuildModel, SaysThatAnExtremeFibreHasNoPlaceOnASectionThatBendsUnalike) {
   }));
 }
 
+TEST(BuildModel, PlacesWarpingWhereTheSectionIsGiven) {
+  const BuildReport report = built(
+      {"beams[0].torsion=true",
+       R"(beams[0].section={"i_section": {"width": 0.05, "height": 0.1, "flange": 0.002, "web": 0.002}})"});
+  ASSERT_TRUE(report.value);
+  const auto warps = [](const Diagnostic& d) { return d.message.find("warping") != std::string::npos; };
+  const auto found = std::find_if(report.diagnostics.begin(), report.diagnostics.end(), warps);
+  ASSERT_NE(found, report.diagnostics.end());
+  EXPECT_TRUE(found->where.ends_with(": beams[0].section")) << found->where;
+}
+
 TEST(BuildModel, GivesTorsionWhereAKeyNeedsSections) {
   for (const char* key :
        {R"(supports[0].type="fork")", R"(loads=[{"beam": "cable", "torque_per_length": "2 N m/m"}])",

@@ -299,6 +299,19 @@ TEST(ReportCommand, ABadSummaryEndsWithTwoAndLeavesTheFormerReport) {
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "report.html.part"));
 }
 
+TEST(ReportCommand, SaysWhyAPageCannotBeWritten) {
+  const TemporaryDirectory directory;
+  ResultsWriter results(directory.path(), {{}, {"bead"}, {"beam"}}, "title");
+  results.write(frame_of(0, 1));
+  results.finish();
+  directory.write("run.json", "{}");
+  std::filesystem::create_directories(directory.path() / "report.html.part");
+  const ReportOutcome outcome = report(directory.path());
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("report.html: cannot be written: Is a directory"), std::string::npos)
+      << outcome.err;
+}
+
 TEST(ReportCommand, WritesAgainWhatTheRunHasWritten) {
   const TemporaryDirectory directory;
   const auto file = directory.write("case.json", test::smallest_case);
@@ -357,6 +370,7 @@ TEST(ModelSummary, TellsWhereTheModelStandsInTheWorld) {
   EXPECT_EQ(model["supports"][1]["type"], "pinned");
   expect_vector(model["supports"][1]["position [m]"], {1000, 7, 5});
   expect_vector(model["supports"][1]["outward"], {0, 0, 1});
+  EXPECT_EQ(beam["curve"], "beam");
   EXPECT_EQ(model["joints"][0]["at beam end"], "stops");
   EXPECT_EQ(model["joints"][0]["s at start [m]"], 0.5);
   expect_vector(model["loads"][0]["value"], {1, 0, 0});

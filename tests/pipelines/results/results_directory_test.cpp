@@ -39,12 +39,27 @@ TEST(ResultsDirectory, IsMadeWithItsParentsAndTakenByOneAtATime) {
 TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
   const TemporaryDirectory temporary;
   std::filesystem::create_directory(temporary.path() / "frames");
-  for (const char* name :
-       {"histories.csv", "results.nc", "results.nc.part", "results.chunk0001.nc", "restart.nc",
-        "restart.nc.part", "run.json", "run.log", "report.html", "frames.pvd", "frames/beams_000000.vtu",
-        "frames/bodies_000012.vtu", "deformed.step", "deformed_t0.5.igs", "deformed_t1e-05.step",
-        "deformed_0012.igs", "deformed_t0.5_solid.step", "deformed_t0_source.step",
-        "deformed_t0.5.step.part123"})
+  for (const char* name : {"histories.csv",
+                           "results.nc",
+                           "results.nc.part",
+                           "results.chunk0001.nc",
+                           "restart.nc",
+                           "restart.nc.part",
+                           "run.json",
+                           "run.log",
+                           "report.html",
+                           "frames.pvd",
+                           "frames/beams_000000.vtu",
+                           "frames/bodies_000012.vtu",
+                           "deformed.step",
+                           "deformed_t0.5.igs",
+                           "deformed_t1e-05.step",
+                           "deformed_0012.igs",
+                           "deformed_t0.5_solid.step",
+                           "deformed_t0_source.step",
+                           "deformed_t0.5.dxf",
+                           "deformed_0012.brep",
+                           "deformed_t0.5.step.part123"})
     temporary.write(name, "");
   const std::vector<std::string> others = {"deformed_tip.step", "notes.txt", "my_histories.csv",
                                            "deformed_t0.5.pdf", "results.nc.bak"};
