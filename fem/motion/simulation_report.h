@@ -79,7 +79,7 @@ struct SimulationReport {
   /// it; and the shortest of them [s].
   long cut_steps = 0;
   double shortest_cut = std::numeric_limits<double>::infinity();
-  bool diverges = false;  ///< an equilibrium that was found leaves itself when it is touched
+  bool diverges = false;       ///< an equilibrium that was found leaves itself when it is touched
   std::optional<double> snap;  ///< load factor under which the model snaps through or buckles, at rest
   double motion_seconds = 0, length_control_seconds = 0;
   double energy_drift = 0;         ///< largest departure of the total energy from its start [J]
