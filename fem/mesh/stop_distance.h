@@ -26,7 +26,6 @@ class StopDistance {
   StopDistance(const Structure& structure, const Mesh& mesh, const Stop& stop);
 
   const std::vector<int>& dofs() const { return dofs_; }
-  const Stop& stop() const { return *stop_; }
   /// d [m], and of rates of the coordinates its own [m/s]: n coordinates each.
   double value(const Eigen::VectorXd& q) const;
   double rate(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const;
