@@ -1,13 +1,13 @@
 #include "fem/motion/coupled_descent.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "fem/system/observables.h"
 #include "solver/kkt_solver.h"
+#include "solver/quadratic_programme.h"
 #include "solver/tangent_matrix.h"
 
 namespace nurbeam {
@@ -24,31 +24,6 @@ class Groups {
  private:
   std::vector<int> first_;
 };
-
-// Of which limits the move is held to equality, and with what multipliers.
-struct HeldLimits {
-  std::vector<int> which;
-  Eigen::VectorXd pressure;  // [N]
-};
-
-Eigen::VectorXd least_on(const Eigen::VectorXd& f, const Eigen::MatrixXd& H,
-                         const std::vector<MoveLimit>& limits, HeldLimits& held) {
-  const auto n = f.size(), m = static_cast<Eigen::Index>(held.which.size());
-  Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(n + m, n + m);
-  Eigen::VectorXd rhs(n + m);
-  const double scale = H.diagonal().maxCoeff();
-  kkt.topLeftCorner(n, n) = H / scale;
-  rhs.head(n) = -f / scale;
-  for (Eigen::Index k = 0; k < m; ++k) {
-    const MoveLimit& limit = limits[held.which[k]];
-    kkt.block(0, n + k, n, 1) = -limit.row;
-    kkt.block(n + k, 0, 1, n) = limit.row.transpose();
-    rhs[n + k] = limit.least;
-  }
-  const Eigen::VectorXd solution = kkt.completeOrthogonalDecomposition().solve(rhs);
-  held.pressure = scale * solution.tail(m);
-  return solution.head(n);
-}
 
 }  // namespace
 
@@ -104,28 +79,16 @@ LimitedMove least_within(const Eigen::VectorXd& f, const Eigen::MatrixXd& H, dou
   const Eigen::MatrixXd upward = V * values.asDiagonal() * V.transpose();
   const Eigen::VectorXd pull = V * along;
 
-  LimitedMove move{{}, std::vector<bool>(limits.size(), false)};
-  HeldLimits held;
-  const std::size_t most = 8 * limits.size() + 8;
-  for (std::size_t round = 0; round < most; ++round) {
-    move.x = least_on(pull, upward, limits, held);
-    Eigen::Index least = 0;
-    if (held.pressure.size() > 0 && held.pressure.minCoeff(&least) < 0) {
-      held.which.erase(held.which.begin() + least);
-      continue;
-    }
-    int worst = -1;
-    double most_beyond = 1e-12 * push;
-    for (int k = 0; k < static_cast<int>(limits.size()); ++k)
-      if (const double beyond = limits[k].least - limits[k].row.dot(move.x); beyond > most_beyond) {
-        worst = k;
-        most_beyond = beyond;
-      }
-    if (worst < 0) break;
-    held.which.push_back(worst);
+  const auto count = static_cast<Eigen::Index>(limits.size());
+  Eigen::MatrixXd rows(count, f.size());
+  Eigen::VectorXd bounds(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    rows.row(k) = limits[k].row;
+    bounds[k] = limits[k].least;
   }
-  for (std::size_t k = 0; k < held.which.size(); ++k)
-    if (held.pressure[static_cast<Eigen::Index>(k)] > round_off) move.pushed[held.which[k]] = true;
+  const QuadraticMinimum least = least_quadratic(upward, pull, rows, bounds, 1e-12 * push);
+  LimitedMove move{least.x, {}};
+  for (Eigen::Index k = 0; k < count; ++k) move.pushed.push_back(least.pressures[k] > round_off);
   return move;
 }
 

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 
+#include "fem/motion/modes.h"
 #include "fem/motion/simulation.h"
 #include "tests/support/models.h"
 
@@ -121,6 +123,24 @@ TEST(CoupledRest, OfATrainOnARopeIsAboutItsMiddle) {
   }
 }
 
+// One lies on a stop and the other on it, from as near to both as may be.
+TEST(CoupledRest, OfTwoBodiesThatNearlyLieOnAStopIsOnIt) {
+  for (const double off : {1e-6, 1e-4, 3e-3, 0.1}) {
+    ModelBuilder builder(2, {0, -gravity_of_bowl, 0});
+    const double c = std::sqrt(0.75), area = pi * 4e-4;
+    builder.add_beam(ReferenceCurve({testing::line_cubic({0, 0, 0}, {3 * c, 1.5, 0})}, 2),
+                     BeamProperties(2e11 * area, 2e11 * area * 1e-4, 7850 * area), {12});
+    builder.clamp(0, 0).guide(0, 3, {c, 0.5, 0});
+    builder.slide(builder.add_body("", 10), 0, 1 + off);
+    builder.slide(builder.add_body("", 20), 0, 1.5 + 2 * off);
+    BeamModel model = builder.build();
+    model.stops = {{.joint = 0, .place = 1, .from_below = false}, {.joint = 0, .other = 1, .place = 0.5}};
+    const Snapshot rest = rest_of(model);
+    EXPECT_NEAR(*rest.bodies[0].s, 1, 1e-9) << off;
+    EXPECT_NEAR(*rest.bodies[1].s, 1.5, 1e-5) << off;  // the bar bends between them
+  }
+}
+
 // With friction they stay, or slide on until what pulls each is no more than it holds.
 TEST(CoupledRest, IsWhereFrictionHoldsEach) {
   const Friction friction{.coefficient = 0.2};
@@ -208,6 +228,20 @@ TEST(RestAtAnEnd, IsNoneForBodiesOfWhichOneSlidesOff) {
   const Snapshot rest = rest_of(model);
   EXPECT_NEAR(*rest.bodies[0].s, 4, 1e-9);
   EXPECT_NEAR(*rest.bodies[1].s, 5, 1e-9);
+}
+
+// Where round-off leaves it a little off the end.
+TEST(RestAtAnEnd, IsFoundFromAnywhere) {
+  for (int i = 1; i < 60; ++i) {
+    ModelBuilder builder(2, {0, -gravity_of_bowl, 0});
+    builder.add_beam(ReferenceCurve({testing::line_cubic({0, 0, 0}, {4, 3, 0})}, 2),
+                     BeamProperties(2e7, 2e4, 1), {8});
+    builder.clamp(0, 0).clamp(0, 5);
+    builder.slide(builder.add_body("", 1), 0, i / 13.3);
+    const ModesReport report =
+        find_modes(std::make_shared<BeamModel>(builder.build()), {.bodies_held = false}, {});
+    EXPECT_FALSE(report.rest.failure) << i;
+  }
 }
 
 TEST(RestAtAnEnd, IsThatOfABodyAtASupportedEnd) {
