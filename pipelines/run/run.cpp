@@ -216,16 +216,16 @@ class Run {
       event.momentum_before = built_.frame.direction_to_world(event.momentum_before);
       event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
     }
+    std::vector<Diagnostic> warnings = shared_pull_warnings(case_.path, outputs.shared_pulls().coarse());
     for (const auto& warning :
          {compression_warning(case_.path, outputs.least_strain()), divergence_warning(case_.path, simulated),
           snap_warning(case_.path, simulated), energy_warning(case_, simulated),
           short_steps_note(case_.path, simulated),
-          summary_.modes ? fewer_modes_note(case_, *summary_.modes) : std::nullopt}) {
-      if (!warning) continue;
-      print_diagnostics(messages_, {*warning});
-      print_diagnostics(*log_, {*warning});
-      summary_.diagnostics.push_back(*warning);
-    }
+          summary_.modes ? fewer_modes_note(case_, *summary_.modes) : std::nullopt})
+      if (warning) warnings.push_back(*warning);
+    print_diagnostics(messages_, warnings);
+    print_diagnostics(*log_, warnings);
+    summary_.diagnostics.insert(summary_.diagnostics.end(), warnings.begin(), warnings.end());
     summary_.files = directory_.files();
     summary_.files.emplace_back("run.json");
     if (with_report) summary_.files.emplace_back("report.html");

@@ -39,7 +39,8 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       results_(results_writer(case_file.name, built, directory, from)),
       cad_(case_file, built, directory, from ? from->snapshots : 0),
       last_restart_(processor_time()),
-      next_look_(Clock::now() + restart_interval) {
+      next_look_(Clock::now() + restart_interval),
+      pulls_(built.model) {
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
   if (!from || from->snapshots == 0) return;
@@ -50,6 +51,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
 void RunOutputs::look_at(const Snapshot& frame) {
   for (int b = 0; b < static_cast<int>(frame.beams.size()); ++b)
     look_at(frame.beams[b].elements, b, frame.time);
+  pulls_.look_at(frame);
   extremes_.look_at(frame, snapshot_names(built_));
 }
 

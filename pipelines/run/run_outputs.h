@@ -10,6 +10,7 @@
 #include "pipelines/results/restart_file.h"
 #include "pipelines/results/results.h"
 #include "pipelines/results/run_summary.h"
+#include "pipelines/results/shared_pull.h"
 #include "pipelines/run/cad_output.h"
 
 namespace nurbeam {
@@ -48,6 +49,7 @@ class RunOutputs {
   /// The largest over all frames.
   const Mismatch& axial_mismatch() const { return mismatch_; }
   const LeastStrain& least_strain() const { return least_strain_; }
+  const SharedPulls& shared_pulls() const { return pulls_; }
   const std::vector<RunExtreme>& extremes() const { return extremes_.list(); }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
@@ -74,6 +76,7 @@ class RunOutputs {
   std::vector<Diagnostic> diagnostics_;
   Mismatch mismatch_;
   LeastStrain least_strain_;
+  SharedPulls pulls_;
   RunExtremes extremes_;
 };
 

@@ -63,6 +63,22 @@ std::optional<Diagnostic> compression_warning(const std::filesystem::path& file,
           " s: do not trust the result; take more elements there, and see whether the material is that soft"};
 }
 
+std::vector<Diagnostic> shared_pull_warnings(const std::filesystem::path& file,
+                                             const std::vector<SharedPull>& coarse) {
+  std::vector<Diagnostic> warnings;
+  for (const SharedPull& at : coarse)
+    warnings.push_back(
+        {Severity::warning, file.string() + ": beam \"" + at.beam + "\"",
+         "the support at s = " + text_of(at.s, 6) + " m takes up " + text_of(at.pull, 3) +
+             " N along the beam, and elements that are smooth across it share that with other supports only "
+             "roughly: axial forces beside it, here up to " +
+             text_of(at.force, 3) + " N, and reactions along the beam may be off by about " +
+             text_of(at.error, 2) +
+             " N; draw two beams that are joined there, which is exact, or take shorter elements (half as "
+             "long: half as much)"});
+  return warnings;
+}
+
 std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, const SimulationReport& run) {
   constexpr double noticed = 0.1;  // of the steps
   if (static_cast<double>(run.cut_steps) < noticed * static_cast<double>(run.steps) || run.cut_steps == 0)

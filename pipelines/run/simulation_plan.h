@@ -7,6 +7,7 @@
 #include "fem/motion/simulation.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/results/run_summary.h"
+#include "pipelines/results/shared_pull.h"
 
 namespace nurbeam {
 
@@ -21,6 +22,10 @@ std::optional<Diagnostic> fewer_modes_note(const CaseFile& case_file, const Mode
 
 /// A warning where an element is compressed to nothing; `file` heads it.
 std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain);
+
+/// Warnings where elements beside supports are too long for what these share of a pull; `file` heads them.
+std::vector<Diagnostic> shared_pull_warnings(const std::filesystem::path& file,
+                                             const std::vector<SharedPull>& coarse);
 
 /// A note where every tenth step of a fixed length or more had to be shorter; `file` heads it.
 std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, const SimulationReport& run);
