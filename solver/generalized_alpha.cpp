@@ -17,6 +17,7 @@ constexpr double largest_growth = 2;      ///< of the step under error control
 constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
 /// Of the first two, in which it is that of Newton's method more than that of the matrix.
 constexpr double first_contraction = 0.5;
+constexpr double hardly_smaller = 0.5;      ///< contraction of what is round-off
 constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
 constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
 constexpr double to_spare = 5;              ///< of what is foretold so
@@ -79,9 +80,9 @@ class Convergence {
     // than a kept matrix does it, whatever its first correction has done.
     const double rate = std::max({balance, contraction_, quickest_kept});
     if (foretold && rate <= quick_contraction && to_spare * rate * residual <= tolerance) return true;
-    // Two small ones running of which the second is no smaller are convergence too: the residual then sits on
-    // its own round-off.
-    return small && last <= tolerance && !contracts();
+    // Two small ones running of which the second is hardly smaller are convergence too: the residual then
+    // sits on its own round-off.
+    return small && last <= tolerance && !contracts(hardly_smaller);
   }
   /// The norm of the last one, without bound before the first.
   double last_correction() const { return correction_; }
