@@ -44,7 +44,7 @@ class EquilibriumSearch {
         kinsol_(equations_) {}
 
   StaticReport run() {
-    if (!reach(1).converged) {
+    if (!reach(1).converged && steps_left()) {
       const Outcome start = reach(0);
       const bool diverges = start.unstable() && diverged_;  // what ended another search, if anything
       if (start.converged)

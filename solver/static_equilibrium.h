@@ -8,7 +8,8 @@ namespace nurbeam {
 struct StaticEquilibrium {
   double tolerance = 1e-10;  ///< on the scaled residual, relative to the largest single force contribution
   int max_iterations = 100;  ///< Newton iterations in one KINSOL call
-  int max_load_steps = 400;  ///< increments, proximal steps and failed attempts together
+  /// Increments, proximal steps and failed attempts together; 1: the full load directly, or nothing.
+  int max_load_steps = 400;
   /// Asked of every equilibrium and every proximal step on the way: true ends the search there, which is to
   /// go on from that state in other coordinates.
   std::function<bool(const State&)> ends_at = {};

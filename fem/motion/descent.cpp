@@ -76,6 +76,15 @@ bool stands_at(const BeamModel& model, int joint, double end, bool from_below) {
   });
 }
 
+bool hard_stop_between(const BeamModel& model, int joint, int other) {
+  return std::any_of(
+      model.stops.begin(), model.stops.end(),
+      [&](const Stop& stop) {
+        return stop.other >= 0 && !stop.buffer &&
+               std::minmax(stop.joint, stop.other) == std::minmax(joint, other);
+      });
+}
+
 }  // namespace
 
 double first_move(const BeamModel& model, int joint) {
@@ -194,10 +203,11 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
       if (!stands_at(model, j, 0, false)) add(row_of(j), -s, Of::end);
       if (!stands_at(model, j, curve.length(), true)) add(-row_of(j), s - curve.length(), Of::end);
     }
-    // Those that nothing keeps apart come no nearer than by a part of their distance at once.
+    // But for a hard stop between them, two come no nearer than by a part of their distance at once: a buffer
+    // that one has jumped over pushes the wrong way.
     for (int other = 0; other < static_cast<int>(model.joints.size()); ++other) {
       const double distance = distance_between(at, j, other);
-      if (!std::isfinite(distance) || kept_apart(model, j, other)) continue;
+      if (!std::isfinite(distance) || hard_stop_between(model, j, other)) continue;
       const double there = curve.unrolled(*place(*at.system, at.state, other), s);
       const Eigen::VectorXd apart = row_of(other) - row_of(j);
       add(there > s ? apart : Eigen::VectorXd(-apart), -0.4 * distance, Of::move);

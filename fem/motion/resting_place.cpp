@@ -23,7 +23,8 @@ namespace nurbeam {
 
 namespace {
 
-// How far a joint can move in a direction while its elements keep a fifth of their length [m].
+// How far a joint can move in a direction while its elements keep half of their length [m]: beyond, Newton's
+// method starts far off.
 double room_to_move(const MeshedState& at, int joint, int direction) {
   const Mesh& mesh = at.system->mesh();
   const int node = mesh.joints[joint].node;
@@ -31,7 +32,7 @@ double room_to_move(const MeshedState& at, int joint, int direction) {
   const int beam = at.system->model().joints[joint].beam, first = mesh.first_span[beam];
   const int count = mesh.first_span[beam + 1] - first;
   const MeshSpan& span = mesh.spans[first + (direction > 0 ? node : (node + count - 1) % count)];
-  return 0.8 * (span.end(at.state.q) - span.start(at.state.q));
+  return (span.end(at.state.q) - span.start(at.state.q)) / 2;
 }
 
 // The plan of the mesh with joints held at other places.
@@ -147,7 +148,9 @@ class RestSearch {
 
   // Equilibrium from the state as it is, which is kept on failure. `held`: the joints that are.
   StaticReport find_equilibrium(MeshedState& at, const std::vector<bool>& held) {
-    at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
+    // What hangs on a rod is as stiff as its multiplier makes it.
+    if (at.state.lambda.size() != at.system->constraint_count())
+      at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
     at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
     const Loading to{1, at.state.t};
     const bool later = equilibrium_ && *equilibrium_ != to.t;
@@ -176,8 +179,12 @@ class RestSearch {
   StaticReport load(MeshedState& at, Loading from, Loading to) {
     const LoadedBetween system(*at.system, from, to, interrupted_);
     at.state.load = 1;
-    const StaticEquilibrium settings{
+    StaticEquilibrium settings{
         .ends_at = [&](const State& state) { return recentring_due(*at.system, state); }};
+    if (nearby_only_) {
+      settings.max_load_steps = 1;
+      settings.max_iterations = 20;
+    }
     StaticReport found = find_static_equilibrium(settings, system, at.state);
     const Loading reached = system.at(found.load_factor);
     at.state.load = found.load_factor = reached.load;
@@ -190,11 +197,14 @@ class RestSearch {
 
   // With all sliding bodies held where the plan has them.
   bool hold_in_equilibrium(MeshPlan plan) {
-    const std::vector<bool> held(model().joints.size(), true);
-    at_.system = at_.system->replanned(std::move(plan), held);
-    const StaticReport found = find_equilibrium(at_, held);
+    const StaticReport found = held_equilibrium(std::move(plan));
     if (found.status == StaticStatus::converged) return true;
     return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
+  }
+  StaticReport held_equilibrium(MeshPlan plan) {
+    const std::vector<bool> held(model().joints.size(), true);
+    at_.system = at_.system->replanned(std::move(plan), held);
+    return find_equilibrium(at_, held);
   }
 
   // Applies the changes of the mesh that are due.
@@ -233,22 +243,38 @@ class RestSearch {
     return parts;
   }
 
+  // Moves held joints to equilibrium, which Newton's first step looks for to first order: by all of the
+  // parts, or by half of them again and again where none is near. Makes of the parts what they were moved by.
+  bool move_by(std::vector<double>& parts) {
+    const auto moved_places = [&] {
+      std::vector<double> places = present_places(at_);
+      for (std::size_t j = 0; j < places.size(); ++j) places[j] += parts[j];
+      return places;
+    };
+    constexpr int most_halvings = 5;
+    std::vector<double> all = parts;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+      nearby_only_ = true;
+      const StaticReport found = held_equilibrium(held_at(at_, moved_places()));
+      nearby_only_ = false;
+      if (found.status == StaticStatus::converged) return true;
+      for (double& part : parts) part /= 2;
+    }
+    parts = std::move(all);
+    return hold_in_equilibrium(held_at(at_, moved_places()));
+  }
+
   // Moves held joints by ds from equilibrium to equilibrium, never past a node at once, and carries length
-  // control along. Newton's first step takes everything along to first order.
+  // control along.
   bool move_places(std::vector<double> ds) {
     while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
-      std::vector<double> places = present_places(at_);
-      const std::vector<double> parts = parts_at_once(ds);
+      std::vector<double> parts = parts_at_once(ds);
+      if (!move_by(parts)) return false;
       for (int j = 0; j < joints(); ++j) {
-        const double part = parts[j];
-        places[j] += part;
-        ds[j] -= part;
+        ds[j] -= parts[j];
         const int dof = at_.system->mesh().joints[j].place;
-        if (dof >= 0) at_.state.v[dof] = part;
+        if (dof >= 0) at_.state.v[dof] = parts[j];  // length control looks at it
       }
-      const Eigen::VectorXd directions = at_.state.v;
-      if (!hold_in_equilibrium(held_at(at_, places))) return false;
-      at_.state.v = directions;  // length control looks at them
       const BeamSystem* const before = at_.system.get();
       if (!settle_mesh() || !goes_on(meeting_bodies(at_))) return false;
       at_.state.v.setZero();
@@ -275,6 +301,7 @@ class RestSearch {
   std::optional<double> equilibrium_;  // the time of the last one found
   std::vector<CoupledDescent> coupled_;
   bool watches_ = false;
+  bool nearby_only_ = false;  // an equilibrium that Newton's method finds at once
   RestReport report_;
 };
 

@@ -141,6 +141,31 @@ TEST(CoupledRest, OfTwoBodiesThatNearlyLieOnAStopIsOnIt) {
   }
 }
 
+// What hangs on a rod has no stiffness but by the pull of the rod, and bodies between which there is a soft
+// buffer are not moved through it.
+TEST(CoupledRest, OfATrolleyWithALoadIsWhereTheRopeIsLowest) {
+  for (const bool rod : {true, false}) {
+    ModelBuilder builder(2, {0, -gravity_of_bowl, 0});
+    BeamProperties rope(2e7, 20, 0.9);
+    rope.free_strain.of_tension = -6000 / rope.axial_stiffness;
+    builder.add_beam(ReferenceCurve({testing::line_cubic({0, 0, 0}, {20, 0, 0})}, 2), rope, {20});
+    builder.pin(0, 0).pin(0, 20);
+    builder.slide(builder.add_body("", 10), 0, 3).continuous_slope = false;
+    if (rod) {
+      builder.add_body("", 50, {2.5, -1.5, 0});
+      builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::rod);
+    } else {
+      builder.slide(builder.add_body("", 10), 0, 15).continuous_slope = false;
+    }
+    BeamModel model = builder.build();
+    if (!rod) model.stops = {{.joint = 0, .other = 1, .place = 2, .buffer = Buffer{2000}}};
+    const Snapshot rest = rest_of(model);
+    const double second = rod ? *rest.bodies[0].s : *rest.bodies[1].s;
+    EXPECT_NEAR((*rest.bodies[0].s + second) / 2, 10, 1e-5) << rod;
+    if (!rod) EXPECT_GT(second - *rest.bodies[0].s, 1);
+  }
+}
+
 // With friction they stay, or slide on until what pulls each is no more than it holds.
 TEST(CoupledRest, IsWhereFrictionHoldsEach) {
   const Friction friction{.coefficient = 0.2};
