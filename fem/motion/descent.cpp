@@ -97,7 +97,8 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   const double force = force_beyond_friction(at, joint, holding_force(*at.system, at.state, joint), body);
   const double s = *place(*at.system, at.state, joint);
   const double spacing = home_spacing(at.system->model(), joint);
-  if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) : 2 * body.most;
+  // Half way back at most: a secant over a buffer's end leads back to where it came from.
+  if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) / 2 : 2 * body.most;
   body.most = std::min(body.most, 4 * spacing);
   const bool begins = body.moved == 0 || body.balanced > 0;
   const bool has_friction = at.system->model().joints[joint].friction.has_value();

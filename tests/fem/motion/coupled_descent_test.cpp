@@ -255,6 +255,21 @@ TEST(RestAtAnEnd, IsNoneForBodiesOfWhichOneSlidesOff) {
   EXPECT_NEAR(*rest.bodies[1].s, 5, 1e-9);
 }
 
+// However stiff it is: the force of a slope ends in one that is up to a million times as steep.
+TEST(RestAtAnEnd, IsWhereABufferHoldsABody) {
+  for (const double start : {0.3, 1.0, 2.2, 3.9})
+    for (const double stiffness : {1e2, 3e4, 1e6}) {
+      BeamModel model = slope({start}).build();
+      model.stops = {{.joint = 0, .place = 4, .buffer = Buffer{stiffness}}};
+      const double pull = first_mass * gravity_of_bowl * 0.6;
+      const double rest = std::min(5.0, 4 + pull / stiffness);
+      if (rest < 5)
+        EXPECT_NEAR(*rest_of(model).bodies[0].s, rest, 1e-6) << start << ' ' << stiffness;
+      else
+        expect_leaving(model, 0);
+    }
+}
+
 // Where round-off leaves it a little off the end.
 TEST(RestAtAnEnd, IsFoundFromAnywhere) {
   for (int i = 1; i < 60; ++i) {
