@@ -66,9 +66,8 @@ class RunError(Error, RuntimeError):
         super().__init__(message)
 
     def __reduce__(self) -> Any:
-        """Pickled with results of a directory, without those in memory."""
-        there = self.results is not None and self.results.directory is not None
-        return type(self), (str(self), self.results if there else None)
+        """Pickled with the results."""
+        return type(self), (str(self), self.results)
 
 
 class CaseWarning(UserWarning):

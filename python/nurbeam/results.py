@@ -335,9 +335,9 @@ class Results(Sequence[Snapshot]):
         ]
 
     def __reduce__(self) -> Any:
-        """Results are pickled as the place where they stand."""
+        """Results of a directory are pickled as the place where they stand, those in memory as what they hold."""
         if self.directory is None:
-            raise TypeError('results in memory cannot be pickled; those of a directory can: run(out="results")')
+            return Results._of, (self._recording, self.report)
         return Results, (self.directory.absolute(),)
 
     def __copy__(self) -> Results:
