@@ -294,6 +294,19 @@ TEST(Corners, AreSmoothedUpToTheAngleAskedForAndReported) {
   EXPECT_TRUE(says(sharp, Severity::error, "at (1, 0, 0) m"));
 }
 
+// The pieces of a spline between its knots: what they turn by is round-off.
+TEST(Corners, OfRoundOffAreNotSaidToBeSmoothed) {
+  const test::TemporaryDirectory directory;
+  const CaseFileReport report =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {R"(beams[0].axis={"nurbs": {"degree": 2, "knots": [0, 0, 0, 0.3, 0.7, 1, 1, 1],
+           "control_points": [[0, 0, 0], [0.31, 0.1, 0.2], [0.53, 0.07, 0.3], [0.8, 0.2, 0.1], [1, 0, 0]]}})",
+                      "beams[0].corners=smooth"});
+  const BuildReport smooth = build_model(report.value.value());
+  EXPECT_TRUE(smooth.value);
+  EXPECT_FALSE(says(smooth, Severity::warning, "were smoothed"));
+}
+
 TEST(Corners, AboveThoseThatAreSmoothedAreWhatTheCaseSays) {
   const test::TemporaryDirectory directory;
   // Corners of 1 and 90 degrees.
