@@ -242,6 +242,24 @@ TEST(AxisSelection, InspectListsChainsAndJunctions) {
   EXPECT_EQ(errors.str(), "");
 }
 
+// Where the column of the kind begins in each row of the table, in characters, of which a Chinese one is
+// twice as wide.
+TEST(AxisSelection, InspectPrintsColumnsWhoseCharactersStandBelowEachOther) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "names.step";
+  ASSERT_TRUE(export_curves(file,
+                            {{"rope", line({0, 0, 0}, {1, 0, 0})},
+                             {"Seil Ø5", line({0, 5, 0}, {4, 5, 0})},
+                             {"缆索", line({0, 7, 0}, {4, 7, 0})}},
+                            LengthUnit::metre)
+                  .empty());
+  std::ostringstream table, errors;
+  ASSERT_EQ(inspect_files({file}, false, table, errors), 0);
+  for (const std::string row :
+       {"  1      rope     bspline ", "  2      Seil Ø5  bspline ", "  3      缆索     bspline "})
+    EXPECT_NE(table.str().find(row), std::string::npos) << table.str();
+}
+
 TEST(PipeSection, IsThatOfTheDrawnPipe) {
   const test::TemporaryDirectory directory;
   const std::string file = test::source_directory() / "tests/corpus/pygem-pipe.step";
