@@ -242,6 +242,22 @@ TEST(AxisSelection, InspectListsChainsAndJunctions) {
   EXPECT_EQ(errors.str(), "");
 }
 
+TEST(AxisSelection, ACurveIsChosenByItsNameWhateverThatHolds) {
+  const test::TemporaryDirectory directory;
+  const std::string inches = "1/2\" pipe, left", ring = "缆索 Ø5";
+  const std::filesystem::path file = directory.path() / "names.step";
+  ASSERT_TRUE(export_curves(file, {{inches, line({0, 0, 0}, {1, 0, 0})}, {ring, line({0, 5, 0}, {4, 5, 0})}},
+                            LengthUnit::metre)
+                  .empty());
+  const CaseFileReport read =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {R"(beams[0].axis={"file": "names.step", "curve": "1/2\" pipe, left"})"});
+  ASSERT_TRUE(read.value) << read.diagnostics.front().message;
+  const BuildReport report = build_model(*read.value);
+  ASSERT_TRUE(report.value);
+  EXPECT_NEAR(report.value->model.beams[0].curve.length(), 1, 1e-12);
+}
+
 // Where the column of the kind begins in each row of the table, in characters, of which a Chinese one is
 // twice as wide.
 TEST(AxisSelection, InspectPrintsColumnsWhoseCharactersStandBelowEachOther) {
