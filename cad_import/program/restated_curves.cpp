@@ -46,6 +46,7 @@
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/transformation_operator.h"
 #include "cad_import/step/trimmed_conic.h"
+#include "cad_import/step/trimmed_spline.h"
 
 namespace nurbeam {
 namespace {
@@ -273,6 +274,7 @@ class StepCurves {
     remarks_.attempt(trimmed, [&] {
       use_unit(trimmed);
       warning = restate_trims(*trimmed, graph_, by_open_cascade_);
+      if (!warning) warning = trims_beyond_ends(*trimmed);
       if (!warning) warning = misplaced_trims(trimmed);
     });
     if (warning) remarks_.warn(trimmed, *warning);
