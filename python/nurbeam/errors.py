@@ -103,6 +103,6 @@ def unknown(what: str, name: object, known: Iterable[str]) -> str:
     """The message of a name that there is none of."""
     names = sorted(known)
     near = difflib.get_close_matches(str(name), names, 1)
-    question = f'; did you mean "{near[0]}"?' if near else ""
+    known_names = f'; did you mean "{near[0]}"? Known' if near else "; known"
     some = ", ".join(f'"{each}"' for each in names[:30])
-    return f'there is no {what} "{name}"{question} Known: {some or "none"}'
+    return f'there is no {what} "{name}"{known_names}: {some or "none"}'

@@ -54,6 +54,12 @@ def test_coordinates_whose_squares_are_no_numbers_are_refused_at_once():
             nb.Curve([[0, 0, 0], [far, 0, 0]]).length
 
 
+def test_only_curves_are_written(tmp_path):
+    with pytest.raises(TypeError, match="curve 2 is 'rail'; expected a Curve"):
+        nb.write(tmp_path / "rail.step", [nb.Curve.line([0, 0, 0], [1, 0, 0]), "rail"])
+    assert not list(tmp_path.iterdir())
+
+
 def test_curves_are_pickled_to_the_bit():
     curve = nb.Curve(np.random.default_rng(2).normal(size=(6, 3)), weights=[1, 0.3, 1.7, 1, 3, 1], name="rail")
     curve.facts["layer"] = "cables"

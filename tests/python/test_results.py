@@ -59,7 +59,7 @@ def test_beams_hold_their_shape_and_what_they_carry(results):
         beam.field("bending_momnet")
     with pytest.raises(KeyError, match='there is no beam "wier"; did you mean "wire"'):
         results[-1].beams["wier"]
-    with pytest.raises(KeyError, match='there is no probe "center".*Known: "middle"'):
+    with pytest.raises(KeyError, match='there is no probe "center"; known: "middle"'):
         results[-1].probes["center"]
 
 
@@ -126,6 +126,14 @@ def assert_alike(a, b):
         for name in mine:
             for x, y in zip(mine[name], others[name]):
                 assert np.array_equal(x, y, equal_nan=True), name
+
+
+def test_snapshots_are_numbered(results):
+    assert results[np.int64(1)].time == results[1].time
+    with pytest.raises(TypeError, match="the number of a snapshot is 1.5; expected a whole number or a slice"):
+        results[1.5]
+    with pytest.raises(KeyError, match='there is no beam "rope"; known: "wire"'):
+        results[0].beams["rope"]
 
 
 def test_what_is_in_memory_is_pickled_to_the_bit(results):
