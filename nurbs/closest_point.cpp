@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "nurbs/golden_section.h"
@@ -14,13 +12,18 @@
 namespace nurbeam {
 namespace {
 
-/// A lower bound of the distance from the point to the cubic: that to the box of its control points.
-double distance_to_box(const RationalCubic& cubic, const Eigen::Vector3d& point) {
+/// The box of the control points, in which the cubic lies.
+Eigen::AlignedBox3d box_of(const RationalCubic& cubic) {
   const Eigen::Matrix<double, 3, 4> controls =
       cubic.points().topRows<3>().array().rowwise() / cubic.points().row(3).array();
-  const Eigen::Vector3d below = controls.rowwise().minCoeff() - point;
-  const Eigen::Vector3d above = point - controls.rowwise().maxCoeff();
-  return below.cwiseMax(above).cwiseMax(0).norm();
+  return {controls.rowwise().minCoeff(), controls.rowwise().maxCoeff()};
+}
+
+std::vector<Eigen::AlignedBox3d> boxes_of(std::span<const RationalCubic> segments) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(segments.size());
+  for (const RationalCubic& segment : segments) boxes.push_back(box_of(segment));
+  return boxes;
 }
 
 /// Bernstein coefficients of (r - p) . r' times W^3, a polynomial of degree 7 whose roots are the stationary
@@ -80,17 +83,14 @@ class Search {
         point_(point),
         best_{0, 0, segments.front().point(0), std::numeric_limits<double>::infinity()} {}
 
-  ClosestPoint result() {
-    std::vector<std::pair<double, int>> nearest_first;
-    for (int j = 0; j < static_cast<int>(segments_.size()); ++j)
-      nearest_first.emplace_back(distance_to_box(segments_[j], point_), j);
-    std::sort(nearest_first.begin(), nearest_first.end());
-    for (const auto& [bound, j] : nearest_first) {
-      if (bound >= best_.distance) break;
+  /// `boxes`: those of the segments.
+  ClosestPoint among(const BoxTree& boxes) {
+    boxes.visit_near(point_, best_.distance, [this](int j) {
       try_parameter(j, 0);
       try_parameter(j, 1);
       visit(j, segments_[j], 0, 1);
-    }
+      return best_.distance;
+    });
     return best_;
   }
 
@@ -104,7 +104,7 @@ class Search {
   /// Looks into the piece of segment j on [a, b], whose ends have been tried: done when it can hold nothing
   /// closer, no interior minimum or a single one (no or one change of sign from - to +), else in two halves.
   void visit(int j, const RationalCubic& piece, double a, double b) {
-    if (distance_to_box(piece, point_) >= best_.distance) return;
+    if (box_of(piece).exteriorDistance(point_) >= best_.distance) return;
     const std::array<double, 8> coefficients = stationarity(piece, point_);
     const int changes = sign_changes(coefficients);
     const double middle = 0.5 * (a + b);
@@ -126,9 +126,17 @@ class Search {
   ClosestPoint best_;
 };
 
-/// Largest value of f on [0,1]: samples, and golden section around those above their neighbours.
+/// The larger of the two values that a golden section of [a, b] begins with: none of them lies on a grid.
 template <typename Function>
-double largest_value(const Function& f) {
+double golden_pair_of(const Function& f, double a, double b) {
+  constexpr double ratio = 0.6180339887498949;
+  return std::max(f(b - ratio * (b - a)), f(a + ratio * (b - a)));
+}
+
+/// Largest value of a distance f on [0,1]: samples, and golden section around those above their neighbours.
+/// Where the samples and what lies beside them are round-off, there is nothing to look for.
+template <typename Function>
+double largest_value(const Function& f, double round_off) {
   constexpr int count = 32;
   std::array<double, count + 1> samples;
   for (int i = 0; i <= count; ++i) samples[i] = f(double(i) / count);
@@ -136,30 +144,50 @@ double largest_value(const Function& f) {
   for (int i = 0; i <= count; ++i) {
     const int before = std::max(i - 1, 0), after = std::min(i + 1, count);
     if (samples[i] < samples[before] || samples[i] < samples[after]) continue;
-    const double u =
-        minimum_place([&f](double v) { return -f(v); }, double(before) / count, double(after) / count, 30);
+    const double a = double(before) / count, b = double(after) / count;
+    if (samples[i] <= round_off && golden_pair_of(f, a, b) <= round_off) continue;
+    const double u = minimum_place([&f](double v) { return -f(v); }, a, b, 30);
     largest = std::max(largest, f(u));
   }
   return largest;
 }
 
+/// What distances between points of cubics are good to [m].
+double round_off_of(std::span<const RationalCubic> segments) {
+  double size = 0;
+  for (const RationalCubic& segment : segments)
+    for (int i = 0; i < 4; ++i) size = std::max(size, segment.control_point(i).cwiseAbs().maxCoeff());
+  return 1e-14 * size;
+}
+
 }  // namespace
 
+ClosestPoints::ClosestPoints(std::span<const RationalCubic> segments)
+    : segments_(segments), boxes_(boxes_of(segments)), round_off_(round_off_of(segments)) {}
+
+ClosestPoint ClosestPoints::to(const Eigen::Vector3d& point) const {
+  return Search(segments_, point).among(boxes_);
+}
+
+double ClosestPoints::largest_distance(const std::function<Eigen::Vector3d(double)>& curve) const {
+  return largest_value([&](double u) { return to(curve(u)).distance; }, round_off_);
+}
+
 ClosestPoint closest_point(std::span<const RationalCubic> segments, const Eigen::Vector3d& point) {
-  assert(!segments.empty());
-  return Search(segments, point).result();
+  return ClosestPoints(segments).to(point);
 }
 
 double largest_distance(const std::function<Eigen::Vector3d(double)>& curve,
                         std::span<const RationalCubic> segments) {
-  return largest_value([&](double u) { return closest_point(segments, curve(u)).distance; });
+  return ClosestPoints(segments).largest_distance(curve);
 }
 
 double hausdorff_distance(std::span<const RationalCubic> a, std::span<const RationalCubic> b) {
   const auto one_way = [](std::span<const RationalCubic> from, std::span<const RationalCubic> to) {
+    const ClosestPoints target(to);
     double largest = 0;
     for (const RationalCubic& segment : from)
-      largest = std::max(largest, largest_distance([&](double u) { return segment.point(u); }, to));
+      largest = std::max(largest, target.largest_distance([&](double u) { return segment.point(u); }));
     return largest;
   };
   return std::max(one_way(a, b), one_way(b, a));

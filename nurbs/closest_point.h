@@ -3,6 +3,7 @@
 #include <functional>
 #include <span>
 
+#include "nurbs/box_tree.h"
 #include "nurbs/rational_cubic.h"
 
 namespace nurbeam {
@@ -15,12 +16,28 @@ struct ClosestPoint {
   double distance;        ///< [m]
 };
 
-/// Global closest point: candidates by bounding boxes of the control points (convex hull property) with
-/// subdivision, digits by Newton. There is at least one cubic; they need not meet.
+/// The closest points of cubics to many points: candidates by a tree of the boxes of the control points
+/// (convex hull property) and subdivision, digits by Newton.
+class ClosestPoints {
+ public:
+  /// At least one cubic; they need not meet, and must outlive this.
+  explicit ClosestPoints(std::span<const RationalCubic> segments);
+
+  ClosestPoint to(const Eigen::Vector3d& point) const;
+  /// Largest distance from the points curve(u), u in [0,1], to the cubics [m]: sampled at 33 places and
+  /// refined at the maxima.
+  double largest_distance(const std::function<Eigen::Vector3d(double)>& curve) const;
+
+ private:
+  std::span<const RationalCubic> segments_;
+  BoxTree boxes_;
+  double round_off_;  // of distances [m]
+};
+
+/// That to one point.
 ClosestPoint closest_point(std::span<const RationalCubic> segments, const Eigen::Vector3d& point);
 
-/// Largest distance from the points curve(u), u in [0,1], to cubics [m]: sampled at 33 places and refined at
-/// the maxima.
+/// Largest distance from the points curve(u), u in [0,1], to cubics [m], as ClosestPoints has it.
 double largest_distance(const std::function<Eigen::Vector3d(double)>& curve,
                         std::span<const RationalCubic> segments);
 

@@ -39,6 +39,7 @@ Eigen::Vector4d blossom(Eigen::Matrix4Xd points, const double* knots, const std:
 
 NurbsCurve::NurbsCurve(KnotVector knots, Eigen::Matrix4Xd control_points)
     : knots_(std::move(knots)), control_points_(std::move(control_points)) {
+  constexpr double largest = 1e100;  // products of several are finite
   std::ostringstream message;
   message.precision(17);
   if (control_points_.cols() != knots_.control_point_count())
@@ -46,6 +47,10 @@ NurbsCurve::NurbsCurve(KnotVector knots, Eigen::Matrix4Xd control_points)
             << knots_.control_point_count();
   else if (!control_points_.allFinite())
     message << "the control points of a NURBS curve must be finite:\n" << control_points_;
+  else if (control_points_.cwiseAbs().maxCoeff() > largest)
+    message << "the control points of a NURBS curve must be at most " << largest
+            << ", so that lengths are numbers:\n"
+            << control_points_;
   else if (control_points_.row(3).minCoeff() <= 0)
     message << "the weights of a NURBS curve must be positive: " << control_points_.row(3);
   else

@@ -10,7 +10,7 @@ namespace nurbeam {
 class NurbsCurve {
  public:
   /// control_points: 4 x knots.control_point_count(), column i = (w_i P_i, w_i).
-  /// Throws std::invalid_argument unless the counts agree, all values are finite and all weights positive.
+  /// Throws std::invalid_argument unless the counts agree, all values are at most 1e100 and weights positive.
   NurbsCurve(KnotVector knots, Eigen::Matrix4Xd control_points);
 
   const KnotVector& knots() const { return knots_; }

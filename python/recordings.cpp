@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <array>
 
 #include "pipelines/results/export_results.h"
@@ -9,6 +10,7 @@
 #include "pipelines/results/history_columns.h"
 #include "python/bindings.h"
 #include "python/recording.h"
+#include "python/recording_bytes.h"
 
 namespace nurbeam::python {
 
@@ -75,6 +77,52 @@ py::object mode_rows(const Recording& recording) {
   for (const ModeRow& row : recording.modes->rows)
     rows.append(py::make_tuple(row.omega, row.factor, Eigen::Vector3d(row.participation)));
   return py::make_tuple(recording.modes->buckling, recording.modes->mass, rows);
+}
+
+// The modes that rows and the like were made of.
+std::optional<ModeTable> mode_table(const py::object& table) {
+  if (table.is_none()) return std::nullopt;
+  const auto [buckling, mass, rows] =
+      table.cast<std::tuple<bool, double, std::vector<std::tuple<double, double, Eigen::Vector3d>>>>();
+  ModeTable modes{.buckling = buckling, .mass = mass, .rows = {}};
+  for (const auto& [omega, factor, participation] : rows)
+    modes.rows.push_back({.omega = omega, .factor = factor, .participation = participation});
+  return modes;
+}
+
+std::string bytes_without_lock(const Recording& recording, std::size_t first, std::size_t count) {
+  const py::gil_scoped_release others_go_on;
+  return bytes_of(recording, first, count);
+}
+
+SharedRecording shared_from(const py::bytes& bytes) {
+  const std::string text = bytes;
+  const py::gil_scoped_release others_go_on;
+  return std::make_shared<Recording>(recording_from(text));
+}
+
+py::tuple recording_state(const Recording& recording) {
+  return py::make_tuple(py::bytes(bytes_without_lock(recording, 0, recording.frames.size())),
+                        mode_rows(recording));
+}
+
+SharedRecording recording_of_state(const py::tuple& state) {
+  SharedRecording recording = shared_from(state[0].cast<py::bytes>());
+  recording->modes = mode_table(state[1]);
+  return recording;
+}
+
+// A snapshot goes by itself, without the others of its recording.
+py::bytes frame_state(const Frame& frame) {
+  const std::deque<Snapshot>& frames = frame.of->frames;
+  const auto is_it = [&](const Snapshot& snapshot) { return &snapshot == frame.snapshot; };
+  const auto number = std::find_if(frames.begin(), frames.end(), is_it) - frames.begin();
+  return {bytes_without_lock(*frame.of, static_cast<std::size_t>(number), 1)};
+}
+
+Frame frame_of_state(const py::bytes& state) {
+  const SharedRecording recording = shared_from(state);
+  return {recording, &recording->frames.at(0)};
 }
 
 const BeamRecord& beam_of(const Frame& frame, std::size_t beam) { return frame.snapshot->beams.at(beam); }
@@ -193,6 +241,7 @@ void bind_recordings(py::module_& module) {
       .def("times", &times)
       .def("steps", &steps)
       .def("modes", &mode_rows)
+      .def(py::pickle(&recording_state, &recording_of_state))
       .def(
           "frame",
           [](const SharedRecording& r, std::size_t i) {
@@ -203,6 +252,7 @@ void bind_recordings(py::module_& module) {
       .def_property_readonly("time", [](const Frame& f) { return f.snapshot->time; })
       .def_property_readonly("recording",
                              [](const Frame& f) { return std::const_pointer_cast<Recording>(f.of); })
+      .def(py::pickle(&frame_state, &frame_of_state))
       .def("bodies",
            [](const Frame& f) {
              return points(f.of->names.bodies, f.snapshot->bodies.size(),

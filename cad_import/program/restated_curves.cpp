@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "cad_import/iges/conic_position.h"
+#include "cad_import/iges/data_points.h"
 #include "cad_import/iges/line_forms.h"
 #include "cad_import/iges/location.h"
 #include "cad_import/iges/offset_curve.h"
@@ -46,6 +47,7 @@
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/transformation_operator.h"
 #include "cad_import/step/trimmed_conic.h"
+#include "cad_import/step/trimmed_spline.h"
 
 namespace nurbeam {
 namespace {
@@ -152,6 +154,16 @@ std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, do
   return places;
 }
 
+void note_data_points(const IGESData_IGESModel& model, Remarks& remarks) {
+  const std::vector<Handle(IGESData_IGESEntity)> points = data_points(model);
+  if (points.empty()) return;
+  remarks.note(points[0],
+               "its form, 1 to 3, is that of points that nothing connects, and it is read as straight lines "
+               "from one to the next; so in " +
+                   std::to_string(points.size()) +
+                   " entities (106) in all: where a path is meant, write form 11 to 13");
+}
+
 /// Matrices before what they place, and offsets before arcs: they refer to the parameters of the arcs as
 /// these are in the file. Returns what scales.
 std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
@@ -170,6 +182,7 @@ std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks
     if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))
       remarks.attempt(conic, [&] { put_into_position(*conic); });
   }
+  note_data_points(model, remarks);
   return restate_instances(model, unit, remarks);
 }
 
@@ -273,6 +286,7 @@ class StepCurves {
     remarks_.attempt(trimmed, [&] {
       use_unit(trimmed);
       warning = restate_trims(*trimmed, graph_, by_open_cascade_);
+      if (!warning) warning = trims_beyond_ends(*trimmed);
       if (!warning) warning = misplaced_trims(trimmed);
     });
     if (warning) remarks_.warn(trimmed, *warning);

@@ -72,8 +72,8 @@ Shape axis() {
                required}});
   return object(
       {{"file", any_text(), "STEP or IGES file, relative to the case file"},
-       {"curve", either(name(), integer(from(1))), "name or index (from 1) as `nurbeam inspect` prints them",
-        false, "file"},
+       {"curve", either(any_text(), integer(from(1))),
+        "name or index (from 1) as `nurbeam inspect` prints them", false, "file"},
        {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
        {"part", any_text(),
         "only curves of this part (STEP) or group (IGES): its name, or the end of its path", false, "file"},

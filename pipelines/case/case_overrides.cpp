@@ -161,26 +161,27 @@ DimensionAtPath dimension_at(const std::string& path) {
   if (!has_sound_brackets(path))
     return {{}, "the brackets do not match; write it as in beams[0].section.radius"};
   const Shape* shape = &case_keys();
-  std::string walked = "the case file";
+  std::string walked;
   for (const std::string& part : path_parts(path)) {
+    const std::string here = walked.empty() ? "the case file" : walked;
     const Shape* holder = shape;
     if (shape->kind == Kind::either)
       for (const Shape& item : shape->items)
         if (item.kind == Kind::object || item.kind == Kind::array) holder = &item;
     if (holder->kind == Kind::array) {
+      walked += "[" + part + "]";
       shape = &holder->items[0];
     } else if (holder->kind == Kind::vector && as_index(part)) {
       return {holder->dimension, {}};
     } else if (holder->kind == Kind::object) {
       const Key* key = find_key(*holder, part);
       if (!key)
-        return {{},
-                "there is no " + in_quotes(part) + " in " + walked + known_names(part, key_names(*holder))};
+        return {{}, "there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(*holder))};
+      walked = child(walked, part);
       shape = &key->shape;
     } else {
-      return {{}, walked + " has no parts that one number could be"};
+      return {{}, here + " has no parts that one number could be"};
     }
-    walked = part;
   }
   if (shape->kind == Kind::either)
     for (const Shape& item : shape->items)

@@ -42,11 +42,12 @@ double size_of(const std::vector<ImportedCurve>& a, const std::vector<ImportedCu
 
 FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b,
                              double tolerance) {
-  const std::vector<RationalCubic> target = all_segments(b, tolerance);
+  const std::vector<RationalCubic> segments = all_segments(b, tolerance);
+  const ClosestPoints target(segments);
   FarthestPoint farthest;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (const RationalCubic& segment : BezierPath::from_nurbs(a[i].curve, tolerance).segments) {
-      const double distance = largest_distance([&](double u) { return segment.point(u); }, target);
+      const double distance = target.largest_distance([&](double u) { return segment.point(u); });
       if (distance > farthest.distance) farthest = {distance, i};
     }
   }

@@ -9,6 +9,7 @@
 #include "cad_import/import_curves.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/diagnostics/utf8_text.h"
 #include "pipelines/model/axis_selection.h"
 #include "pipelines/section/section_profile.h"
 
@@ -68,11 +69,11 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 void print_table(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], column_count(row[i]));
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i)
-      line += "  " + row[i] + std::string(widths[i] - row[i].size(), ' ');
+      line += "  " + row[i] + std::string(widths[i] - column_count(row[i]), ' ');
     out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
   }
 }

@@ -194,7 +194,7 @@ std::vector<RationalCubic> regular(const CaseBeam& beam, const BeamAxis& axis, F
 std::vector<RationalCubic> smoothed(const CaseBeam& beam, const std::vector<RationalCubic>& segments,
                                     Findings& findings) {
   SmoothCorners smooth = smooth_corners(segments, beam.smooth_angle);
-  if (smooth.deviation > 0)
+  if (smooth.deviation > round_off * total_length(segments))
     findings.warn(beam.path + ".corners",
                   "corners of up to " + text_of(beam.smooth_angle * 180 / std::numbers::pi) +
                       " degrees were smoothed; largest deviation " + text_of(smooth.deviation) + " m");

@@ -311,7 +311,8 @@ bool is_in_axis(const std::string& path, const std::string& beam, std::size_t in
          path.starts_with("beams[" + std::to_string(index) + "].axis");
 }
 
-// Whether the numbers that variables set are there, and are not those of a curve that others move.
+// Whether the numbers that variables set are there in this case (that no case has one is said elsewhere), and
+// are not those of a curve that others move.
 void check_paths(const StudyFile& study, const Json& case_json,
                  const std::map<std::string, StudyCurve>& curves, Findings& findings) {
   std::map<std::string, std::pair<std::string, std::string>>
@@ -322,7 +323,8 @@ void check_paths(const StudyFile& study, const Json& case_json,
     for (const std::string& path : numbers->paths) {
       Json json = case_json;
       const AppliedOverride applied = apply_override(json, path + "=1");
-      if (!applied.problem.empty()) findings.error(variable.path + ".path", applied.problem);
+      if (!applied.problem.empty() && dimension_at(path).dimension)
+        findings.error(variable.path + ".path", applied.problem);
       const auto& [owner, written] =
           owners.try_emplace(applied.problem.empty() ? applied.path : path, variable.name, path)
               .first->second;

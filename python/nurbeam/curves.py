@@ -270,6 +270,9 @@ def write(
     if schema not in ("ap214", "ap242"):
         raise ValueError(unknown("schema", schema, ["ap214", "ap242"]))
     several = [curves] if isinstance(curves, Curve) else list(curves)
+    for i, each in enumerate(several, 1):
+        if not isinstance(each, Curve):
+            raise TypeError(f"curve {i} is {each!r}; expected a Curve")
     named = [(curve.name or f"curve {i}", curve._nurbs) for i, curve in enumerate(several, 1)]
     findings = findings_of(_core.write_curves(os.fspath(file), named, unit, schema))
     if any(finding.severity == "error" for finding in findings):

@@ -66,9 +66,8 @@ class RunError(Error, RuntimeError):
         super().__init__(message)
 
     def __reduce__(self) -> Any:
-        """Pickled with results of a directory, without those in memory."""
-        there = self.results is not None and self.results.directory is not None
-        return type(self), (str(self), self.results if there else None)
+        """Pickled with the results."""
+        return type(self), (str(self), self.results)
 
 
 class CaseWarning(UserWarning):
@@ -104,6 +103,6 @@ def unknown(what: str, name: object, known: Iterable[str]) -> str:
     """The message of a name that there is none of."""
     names = sorted(known)
     near = difflib.get_close_matches(str(name), names, 1)
-    question = f'; did you mean "{near[0]}"?' if near else ""
+    known_names = f'; did you mean "{near[0]}"? Known' if near else "; known"
     some = ", ".join(f'"{each}"' for each in names[:30])
-    return f'there is no {what} "{name}"{question} Known: {some or "none"}'
+    return f'there is no {what} "{name}"{known_names}: {some or "none"}'

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -335,9 +336,9 @@ class Results(Sequence[Snapshot]):
         ]
 
     def __reduce__(self) -> Any:
-        """Results are pickled as the place where they stand."""
+        """Results of a directory are pickled as the place where they stand, those in memory as what they hold."""
         if self.directory is None:
-            raise TypeError('results in memory cannot be pickled; those of a directory can: run(out="results")')
+            return Results._of, (self._recording, self.report)
         return Results, (self.directory.absolute(),)
 
     def __copy__(self) -> Results:
@@ -351,7 +352,11 @@ class Results(Sequence[Snapshot]):
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, slice):
             return [self[i] for i in range(*key.indices(len(self)))]
-        i = key + len(self) if key < 0 else key
+        try:
+            number = operator.index(key)
+        except TypeError:
+            raise TypeError(f"the number of a snapshot is {key!r}; expected a whole number or a slice") from None
+        i = number + len(self) if number < 0 else number
         if not 0 <= i < len(self):
             raise IndexError(f"there is no snapshot {key}; there are {len(self)}, counted from 0")
         return Snapshot(self._recording.frame(i))

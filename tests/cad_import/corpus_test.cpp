@@ -38,7 +38,8 @@ const std::vector<Expected> manifest{
      61.8362783,
      {"D3 Line: skipped with all that is made of it: it is an infinite line",
       "D7 Line: skipped with all that is made "
-      "of it: it is a ray"}},
+      "of it: it is a ray",
+      "D33 CopiousData: its form, 1 to 3, is that of points"}},
     {"pyiges-example-arcs.iges", "mm", 3, 3, {{"bspline", 1}, {"circle", 1}, {"ellipse", 1}}, 6, 1006.894770},
     {"iges-102-composite.igs",
      "inch",

@@ -313,6 +313,22 @@ TEST(RestatedIges, RaysAndInfiniteLinesAreNamed) {
                           [](const ImportedCurve& curve) { return curve.is_centre_line(); }));
 }
 
+// IGES 5.3, 4.7: forms 1 to 3 are data points, 11 to 13 paths through them.
+TEST(RestatedIges, PointsThatNothingConnectsAreNoted) {
+  const auto notes_of = [](int form) {
+    const std::string coordinates = "0.,0.,0.,5.,0.,0.,5.,7.,0.;";
+    const ImportReport report =
+        import_text(iges_text_of({{.type = 106, .parameters = "106,2,3," + coordinates, .form = form}}));
+    EXPECT_GE(report.curves.size(), 1U);
+    return report.diagnostics;
+  };
+  EXPECT_TRUE(notes_of(12).empty());
+  const std::vector<Diagnostic> notes = notes_of(2);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].severity, Severity::note);
+  EXPECT_NE(notes[0].message.find("points that nothing connects"), std::string::npos) << notes[0].message;
+}
+
 IgesEntity offset_of(const std::string& range, int matrix = 0) {
   return {.type = 130,
           .parameters = "130,3,1,0,0,1,1.,0.,0.,0.,0.,0.,1.," + range + ";",

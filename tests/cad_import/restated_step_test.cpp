@@ -146,6 +146,28 @@ TEST(RestatedStep, PiecesWhosePointsAreNotTheirEndsAreNamed) {
   EXPECT_NE(contrary.find("ends " + text_of(std::sqrt(50.0)) + " mm"), std::string::npos) << contrary;
 }
 
+TEST(RestatedStep, PiecesOfSplinesThatGoBeyondTheirEndsAreNamed) {
+  const auto read = [](const std::string& first, const std::string& last) {
+    return import_text(step_text_of(
+        "#100", "#100 = TRIMMED_CURVE('piece',#101,(PARAMETER_VALUE(" + first + ")),(PARAMETER_VALUE(" +
+                    last +
+                    ")),.T.,.PARAMETER.);\n#101 = B_SPLINE_CURVE_WITH_KNOTS('',2,(#110,#111,#112,#113),"
+                    ".UNSPECIFIED.,.F.,.F.,(3,1,3),(0.,1.,2.),.UNSPECIFIED.);\n"
+                    "#110 = CARTESIAN_POINT('',(0.,0.,0.));\n#111 = CARTESIAN_POINT('',(1.,2.,0.));\n"
+                    "#112 = CARTESIAN_POINT('',(3.,2.,0.));\n#113 = CARTESIAN_POINT('',(4.,0.,0.));\n"));
+  };
+  EXPECT_TRUE(read("0.", "2.0000000001").diagnostics.empty());
+  for (const auto& [first, last] : {std::pair("-0.5", "1.5"), std::pair("0.5", "7.")}) {
+    const ImportReport report = read(first, last);
+    ASSERT_EQ(report.diagnostics.size(), 1U);
+    EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+    EXPECT_NE(report.diagnostics[0].where.find("'piece'"), std::string::npos);
+    EXPECT_NE(report.diagnostics[0].message.find("beyond the ends of its curve, at 0 and 2"),
+              std::string::npos)
+        << report.diagnostics[0].message;
+  }
+}
+
 TEST(RestatedStep, PiecesOfParabolasGoByTheirPoints) {
   for (const Unit& unit : units) {
     const auto read = [&](const std::string& first, const std::string& last, const std::string& master,

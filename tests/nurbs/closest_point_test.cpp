@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -175,6 +176,48 @@ TEST(ClosestPointTest, FarFromTheOriginOrTheCurveItIsStillFound) {
   const BezierPath circle = BezierPath::from_nurbs(unit_circle(), 0);
   EXPECT_LE((closest_point(circle.segments, {1e6, 0, 0}).point - Eigen::Vector3d(1, 0, 0)).norm(), 1e-9);
   EXPECT_NEAR(closest_point(circle.segments, {0, 0, 1e6}).distance, std::hypot(1.0, 1e6), 1e-9);
+}
+
+TEST(ClosestPointTest, AmongManyCubicsItIsThatOfTheNearestOne) {
+  Generator generator(47);
+  std::vector<RationalCubic> cubics;
+  for (int i = 0; i < 300; ++i) cubics.push_back(random_cubic(generator));
+  const ClosestPoints all(cubics);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d point = 2 * random_point(generator);
+    double nearest = 1e9;
+    for (const RationalCubic& cubic : cubics)
+      nearest = std::min(nearest, closest_point({&cubic, 1}, point).distance);
+    ASSERT_EQ(all.to(point).distance, nearest);
+  }
+}
+
+// The chords stand where the arc is sampled: only between them is there a distance, the sagitta.
+TEST(ClosestPointTest, AnArcIsItsSagittaFromChordsThatEndWhereItIsSampled) {
+  const BezierPath circle = BezierPath::from_nurbs(unit_circle(), 0);
+  const RationalCubic& arc = circle.segments[0];
+  std::vector<RationalCubic> chords;
+  double sagitta = 0;
+  for (int i = 0; i < 32; ++i) {
+    const Eigen::Vector3d a = arc.point(i / 32.0), b = arc.point((i + 1) / 32.0);
+    chords.push_back(BezierPath::from_nurbs(line(a, b), 0).segments[0]);
+    sagitta = std::max(sagitta, 1 - (0.5 * (a + b)).norm());
+  }
+  EXPECT_NEAR(hausdorff_distance({&arc, 1}, chords), sagitta, 1e-12);
+}
+
+// 2000 cubics, each sampled and compared with all.
+TEST(ClosestPointTest, ManyCubicsAreAtNoDistanceFromThemselvesSoon) {
+  Generator generator(48);
+  std::vector<RationalCubic> cubics;
+  for (int i = 0; i < 2000; ++i) {
+    Eigen::Matrix4d points = random_cubic(generator).points();
+    points.topRows<3>() += Eigen::Vector3d(3 * (i % 50), 3 * (i / 50), 0) * points.row(3);
+    cubics.emplace_back(points);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_LE(hausdorff_distance(cubics, cubics), 1e-12);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 }  // namespace

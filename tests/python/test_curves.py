@@ -47,6 +47,19 @@ def test_derivatives_at_many_parameters_are_those_at_each():
     assert np.array_equal(found[1, 0], curve.derivatives(0.5, 2)) and np.array_equal(found[..., 0, :], curve(u))
 
 
+def test_coordinates_whose_squares_are_no_numbers_are_refused_at_once():
+    assert nb.Curve([[0, 0, 0], [1e90, 0, 0]]).length == pytest.approx(1e90, rel=1e-12)
+    for far in (1e101, 1e200, 1e300):
+        with pytest.raises(ValueError, match="must be at most 1e\\+100"):
+            nb.Curve([[0, 0, 0], [far, 0, 0]]).length
+
+
+def test_only_curves_are_written(tmp_path):
+    with pytest.raises(TypeError, match="curve 2 is 'rail'; expected a Curve"):
+        nb.write(tmp_path / "rail.step", [nb.Curve.line([0, 0, 0], [1, 0, 0]), "rail"])
+    assert not list(tmp_path.iterdir())
+
+
 def test_curves_are_pickled_to_the_bit():
     curve = nb.Curve(np.random.default_rng(2).normal(size=(6, 3)), weights=[1, 0.3, 1.7, 1, 3, 1], name="rail")
     curve.facts["layer"] = "cables"

@@ -88,6 +88,15 @@ TEST(StudyCase, SaysWhichChangesAreWrongAndLooksForMore) {
   EXPECT_EQ(read.messages.find("--set"), std::string::npos) << read.messages;
 }
 
+TEST(StudyCase, SaysOnceThatAPathIsNone) {
+  const ReadCase read =
+      read_with(R"json({"name": "a", "path": "beams[0].section.radios", "range": [1, 2]})json");
+  const std::string said = "there is no \"radios\"";
+  const std::size_t first = read.messages.find(said);
+  ASSERT_NE(first, std::string::npos) << read.messages;
+  EXPECT_EQ(read.messages.find(said, first + 1), std::string::npos) << read.messages;
+}
+
 TEST(StudyCase, SaysWhichChangeHasSetAValueThatIsWrong) {
   const ReadCase read = read_with(one_point, R"json(, "set": ["beams[rail].elements.count=0",
     "analysis.step=2", "analysis={\"end_time\": 1, \"step\": -0.1}"])json");

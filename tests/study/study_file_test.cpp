@@ -76,7 +76,7 @@ TEST(StudyFile, SaysAllThatIsWrongAtOnceWithItsPlace) {
     "optimise": {"minimise": "speed", "subject_to": ["q"]}})json");
   for (
       const char* text :
-      {"study.json: variables[0].path: \"beams[0].section.radios\": there is no \"radios\" in section; did you mean \"radius\"?",
+      {"study.json: variables[0].path: \"beams[0].section.radios\": there is no \"radios\" in beams[0].section; did you mean \"radius\"?",
        "study.json: variables[1].range[0]:", "study.json: variables[2].range: 2 is not below 1",
        "study.json: variables[2].name: \"b\" is the name of two variables",
        "study.json: variables[3].distribution.lognormal.mean: is -1; must be greater than 0",

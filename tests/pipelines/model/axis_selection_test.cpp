@@ -242,6 +242,40 @@ TEST(AxisSelection, InspectListsChainsAndJunctions) {
   EXPECT_EQ(errors.str(), "");
 }
 
+TEST(AxisSelection, ACurveIsChosenByItsNameWhateverThatHolds) {
+  const test::TemporaryDirectory directory;
+  const std::string inches = "1/2\" pipe, left", ring = "缆索 Ø5";
+  const std::filesystem::path file = directory.path() / "names.step";
+  ASSERT_TRUE(export_curves(file, {{inches, line({0, 0, 0}, {1, 0, 0})}, {ring, line({0, 5, 0}, {4, 5, 0})}},
+                            LengthUnit::metre)
+                  .empty());
+  const CaseFileReport read =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {R"(beams[0].axis={"file": "names.step", "curve": "1/2\" pipe, left"})"});
+  ASSERT_TRUE(read.value) << read.diagnostics.front().message;
+  const BuildReport report = build_model(*read.value);
+  ASSERT_TRUE(report.value);
+  EXPECT_NEAR(report.value->model.beams[0].curve.length(), 1, 1e-12);
+}
+
+// Where the column of the kind begins in each row of the table, in characters, of which a Chinese one is
+// twice as wide.
+TEST(AxisSelection, InspectPrintsColumnsWhoseCharactersStandBelowEachOther) {
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "names.step";
+  ASSERT_TRUE(export_curves(file,
+                            {{"rope", line({0, 0, 0}, {1, 0, 0})},
+                             {"Seil Ø5", line({0, 5, 0}, {4, 5, 0})},
+                             {"缆索", line({0, 7, 0}, {4, 7, 0})}},
+                            LengthUnit::metre)
+                  .empty());
+  std::ostringstream table, errors;
+  ASSERT_EQ(inspect_files({file}, false, table, errors), 0);
+  for (const std::string row :
+       {"  1      rope     bspline ", "  2      Seil Ø5  bspline ", "  3      缆索     bspline "})
+    EXPECT_NE(table.str().find(row), std::string::npos) << table.str();
+}
+
 TEST(PipeSection, IsThatOfTheDrawnPipe) {
   const test::TemporaryDirectory directory;
   const std::string file = test::source_directory() / "tests/corpus/pygem-pipe.step";
@@ -292,6 +326,19 @@ TEST(Corners, AreSmoothedUpToTheAngleAskedForAndReported) {
   EXPECT_TRUE(says(sharp, Severity::error, "\"smooth_up_to\": 12"));
   EXPECT_TRUE(says(sharp, Severity::error, "a corner of 11.3"));
   EXPECT_TRUE(says(sharp, Severity::error, "at (1, 0, 0) m"));
+}
+
+// The pieces of a spline between its knots: what they turn by is round-off.
+TEST(Corners, OfRoundOffAreNotSaidToBeSmoothed) {
+  const test::TemporaryDirectory directory;
+  const CaseFileReport report =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {R"(beams[0].axis={"nurbs": {"degree": 2, "knots": [0, 0, 0, 0.3, 0.7, 1, 1, 1],
+           "control_points": [[0, 0, 0], [0.31, 0.1, 0.2], [0.53, 0.07, 0.3], [0.8, 0.2, 0.1], [1, 0, 0]]}})",
+                      "beams[0].corners=smooth"});
+  const BuildReport smooth = build_model(report.value.value());
+  EXPECT_TRUE(smooth.value);
+  EXPECT_FALSE(says(smooth, Severity::warning, "were smoothed"));
 }
 
 TEST(Corners, AboveThoseThatAreSmoothedAreWhatTheCaseSays) {
