@@ -25,6 +25,7 @@ std::vector<double> kink_times(const BeamModel& model) {
   };
   for (const SlidingJoint& joint : model.joints) {
     if (joint.motion) add(joint.motion->rows());
+    if (joint.friction) add(joint.friction->force);
     if (joint.release) times.push_back(*joint.release);
   }
   for (const Force& force : model.forces)

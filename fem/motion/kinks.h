@@ -5,9 +5,8 @@
 
 namespace nurbeam {
 
-/// The times at which a table of the model, of a load, a motion or a temperature, has a row, or a body is
-/// released: increasing. What is
-/// smooth between them need not be across: steps end there.
+/// The times [s] at which a table of the model, of a load, a brake, a motion or a temperature, has a row, or
+/// a body is released: increasing. What is smooth between them need not be across: steps end there.
 std::vector<double> kink_times(const BeamModel& model);
 
 /// A prescribed motion whose speed jumps.
