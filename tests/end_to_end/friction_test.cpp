@@ -278,6 +278,25 @@ TEST(FrictionRun, AtRestABodyStaysWhereFrictionHoldsItOrSlidesThere) {
   EXPECT_NEAR(slides.last("bead.s [m]"), 3 * (pi / 2 - std::atan(0.25)), 1e-5);
 }
 
+// Its table is read where those of loads are: at the factor, which is 1 where none is given.
+TEST(FrictionRun, AtRestABrakeOverTimeIsThatOfTheFactor) {
+  const auto braked = [&](const char* rows, const char* analysis) {
+    return run_rubbing(rubbing_case(
+        slope_down(30), 2,
+        std::string(R"("at": {"length": 1}, "at_beam_end": "stop", "friction": {"force": )") + rows + "}",
+        analysis));
+  };
+  for (const char* analysis : {R"({"type": "static"})", R"({"type": "static", "load_steps": [1]})"}) {
+    const CaseRun closes = braked("[[0, 0], [1, 50]]", analysis);
+    ASSERT_EQ(closes.code, 0) << closes.messages;
+    EXPECT_NEAR(closes.last("bead.s [m]"), 1, 1e-9) << analysis;
+    EXPECT_NEAR(closes.last("bead.friction_force [N]"), -2 * gravity / 2, 1e-6) << analysis;
+    const CaseRun opens = braked("[[0, 50], [1, 0]]", analysis);
+    ASSERT_EQ(opens.code, 0) << opens.messages;
+    EXPECT_NEAR(opens.last("bead.s [m]"), 400, 1e-6) << analysis;
+  }
+}
+
 TEST(FrictionRun, ADriveWorksAgainstFriction) {
   const CaseRun run = run_rubbing(
       rubbing_case(slope_down(0), 5,
