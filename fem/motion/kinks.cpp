@@ -48,6 +48,15 @@ std::vector<double> kink_times(const BeamModel& model) {
   return times;
 }
 
+double end_of_jump(const std::vector<double>& times, double time, double resolution) {
+  constexpr double apart = 100;
+  const auto beyond = std::upper_bound(times.begin(), times.end(), time + resolution);
+  const auto after = std::upper_bound(times.begin(), beyond, time);
+  if (after == beyond) return time;
+  const double last = *(beyond - 1);
+  return beyond == times.end() || *beyond - last > apart * (last - time) ? last : time;
+}
+
 std::vector<MotionKink> motion_kinks(const BeamModel& model, double time) {
   constexpr double same_speed = 1e-12;  // relative
   std::vector<MotionKink> kinks;
