@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <variant>
+
+#include "fem/forces/load_place.h"
 
 namespace nurbeam {
 
@@ -14,6 +17,14 @@ std::pair<double, double> slopes_at(const TimeTable& table, std::size_t row) {
     return (table[from + 1].second - table[from].second) / (table[from + 1].first - table[from].first);
   };
   return {row > 0 ? slope(row - 1) : 0, row + 1 < table.size() ? slope(row) : 0};
+}
+
+// Of a load that moves: place_of() knows it up to twice its round-off beyond the end.
+void add_leaving(const LoadAtPlace& load, const Beam& beam, std::vector<double>& times) {
+  if (load.speed == 0 || beam.is_ring()) return;
+  const double length = beam.curve.length(), way = load.speed > 0 ? length - load.s : -load.s;
+  times.push_back(way / load.speed);
+  times.push_back((way + std::copysign(2e-12 * length, load.speed)) / load.speed);
 }
 
 }  // namespace
@@ -32,6 +43,8 @@ std::vector<double> kink_times(const BeamModel& model) {
     std::visit(
         [&](const auto& f) {
           if constexpr (requires { f.time; }) add(f.time);
+          if constexpr (std::is_base_of_v<LoadAtPlace, std::decay_t<decltype(f)>>)
+            add_leaving(f, model.beams[f.beam], times);
         },
         force);
   for (const Beam& beam : model.beams) add(beam.properties.free_strain.thermal);

@@ -5,8 +5,9 @@
 
 namespace nurbeam {
 
-/// The times [s] at which a table of the model, of a load, a brake, a motion or a temperature, has a row, or
-/// a body is released: increasing. What is smooth between them need not be across: steps end there.
+/// The times [s] at which a table of the model, of a load, a brake, a motion or a temperature, has a row, a
+/// body is released, or a load that moves leaves its beam (the last moment there and one beyond): increasing.
+/// What is smooth between them need not be across: steps end there.
 std::vector<double> kink_times(const BeamModel& model);
 
 /// Where a jump ends that begins at a moment: at the last of the times that follow within the resolution of

@@ -338,6 +338,12 @@ TEST(LoadTables, JumpBetweenSteps) {
   expect_impulse(all_along("[[0, 1], [1e-12, 0], [0.05, 0], [0.050000000001, 1]]"), 5, 1e-6);
 }
 
+TEST(MovingForce, IsGoneOnceItHasLeftTheBeam) {
+  expect_impulse(
+      R"({ "beam": "b", "at": { "length": 0.2 }, "force": [100, 0, 0], "moves": { "speed": 15 } })",
+      100 * 0.8 / 15, 0.05);
+}
+
 // A body on a stiff slope of 30 degrees: held for 0.2 s, then s = g sin(30) t^2/2.
 TEST(Release, ABodyIsHeldUntilItsTime) {
   const std::string slope = R"({
