@@ -338,6 +338,13 @@ TEST(LoadTables, JumpBetweenSteps) {
   expect_impulse(all_along("[[0, 1], [1e-12, 0], [0.05, 0], [0.050000000001, 1]]"), 5, 1e-6);
 }
 
+// But for the last two, which are a jump: 1e-5 of a step of 10 ms, at most.
+TEST(LoadTables, LoseNoTimeWhereTheirRowsAreDense) {
+  std::string rows = "[[0, 1]";
+  for (int i = 0; i < 200; ++i) rows += ", [" + std::to_string(30000000 + 50 * i) + "e-9, 1]";
+  expect_impulse(R"({ "beam": "b", "force_per_length": [100, 0, 0], "time": )" + rows + "]}", 10, 1e-5);
+}
+
 TEST(MovingForce, IsGoneOnceItHasLeftTheBeam) {
   expect_impulse(
       R"({ "beam": "b", "at": { "length": 0.2 }, "force": [100, 0, 0], "moves": { "speed": 15 } })",
