@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <variant>
+
+#include "fem/forces/load_place.h"
 
 namespace nurbeam {
 
@@ -16,6 +19,14 @@ std::pair<double, double> slopes_at(const TimeTable& table, std::size_t row) {
   return {row > 0 ? slope(row - 1) : 0, row + 1 < table.size() ? slope(row) : 0};
 }
 
+// Of a load that moves: place_of() knows it up to twice its round-off beyond the end.
+void add_leaving(const LoadAtPlace& load, const Beam& beam, std::vector<double>& times) {
+  if (load.speed == 0 || beam.is_ring()) return;
+  const double length = beam.curve.length(), way = load.speed > 0 ? length - load.s : -load.s;
+  times.push_back(way / load.speed);
+  times.push_back((way + std::copysign(2e-12 * length, load.speed)) / load.speed);
+}
+
 }  // namespace
 
 std::vector<double> kink_times(const BeamModel& model) {
@@ -25,12 +36,15 @@ std::vector<double> kink_times(const BeamModel& model) {
   };
   for (const SlidingJoint& joint : model.joints) {
     if (joint.motion) add(joint.motion->rows());
+    if (joint.friction) add(joint.friction->force);
     if (joint.release) times.push_back(*joint.release);
   }
   for (const Force& force : model.forces)
     std::visit(
         [&](const auto& f) {
           if constexpr (requires { f.time; }) add(f.time);
+          if constexpr (std::is_base_of_v<LoadAtPlace, std::decay_t<decltype(f)>>)
+            add_leaving(f, model.beams[f.beam], times);
         },
         force);
   for (const Beam& beam : model.beams) add(beam.properties.free_strain.thermal);
@@ -45,6 +59,15 @@ std::vector<double> kink_times(const BeamModel& model) {
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
+}
+
+double end_of_jump(const std::vector<double>& times, double time, double resolution) {
+  constexpr double apart = 100;
+  const auto beyond = std::upper_bound(times.begin(), times.end(), time + resolution);
+  const auto after = std::upper_bound(times.begin(), beyond, time);
+  if (after == beyond) return time;
+  const double last = *(beyond - 1);
+  return beyond == times.end() || *beyond - last > apart * (last - time) ? last : time;
 }
 
 std::vector<MotionKink> motion_kinks(const BeamModel& model, double time) {

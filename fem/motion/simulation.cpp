@@ -231,6 +231,7 @@ struct Simulation::Implementation {
   void begin_moving() {
     phase_ = Phase::motion;
     write_due();
+    if (!pass_jump()) return end_early();
     end_at_end_time();
   }
 
@@ -264,9 +265,21 @@ struct Simulation::Implementation {
     if (time == last_written_ && !run_.goes_on(energy_from_nowhere(0))) return end_early();
     if (run_.report.steps % watch == 0 && !run_.goes_on(energy_from_nowhere(slight_bending(*run_.model))))
       return end_early();
+    if (time == kink && !pass_jump()) return end_early();
     if (run_.observer.progress) run_.observer.progress(run_.last_record);
     if (run_.observer.checkpoint_due && run_.observer.checkpoint_due()) hand_over();
     end_at_end_time();
+  }
+
+  // A jump of tables or of a force that no step can lie in: what comes begins after it.
+  bool pass_jump() {
+    const double after = end_of_jump(kinks_, run_.at.state.t, run_.resolution());
+    if (after == run_.at.state.t || is_over()) return true;
+    run_.change([after](MeshedState& at) {
+      at.state.t = after;
+      return true;
+    });
+    return pass_kink(run_) && release_bodies(run_) && run_.restart();
   }
 
   double next_kink() const {

@@ -132,9 +132,25 @@ std::optional<int> row_of_place(const BeamSystem& system, int joint) {
   return found;
 }
 
+namespace {
+
+// Of the s of a joint in the distance that a stop keeps; 0 where it is not about that joint.
+double weight_in_stop(const Stop& stop, int joint) {
+  if (stop.joint == joint) return stop.weight_of_joint();
+  return stop.other == joint ? stop.weight_of_other() : 0;
+}
+
+}  // namespace
+
 double holding_force(const BeamSystem& system, const State& state, int joint) {
-  const std::optional<int> row = row_of_place(system, joint);
-  return row ? -state.lambda[*row] : 0;
+  if (const std::optional<int> row = row_of_place(system, joint)) return -state.lambda[*row];
+  const std::vector<Stop>& stops = system.model().stops;
+  double force = 0;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    const double weight = weight_in_stop(stops[i], joint);
+    if (weight != 0) force += weight * contact_force(system, state, static_cast<int>(i));
+  }
+  return force;
 }
 
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector) {

@@ -44,7 +44,8 @@ Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body)
 Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint);
 /// The row of the multiplier of a held or prescribed joint; empty where its place is free.
 std::optional<int> row_of_place(const BeamSystem& system, int joint);
-/// The negative of that multiplier: the force along the beam [N] that keeps it there.
+/// The force along the beam [N] that keeps a joint in its place: the negative of that multiplier, or what the
+/// hard stops against which it rests give it.
 double holding_force(const BeamSystem& system, const State& state, int joint);
 /// The force of a hard stop on the body that rests against it, or between two that rest against each other
 /// [N]; 0 where none does.

@@ -100,7 +100,8 @@ bool has_tables(const CaseFile& read) {
          any(read.loads, [](const CaseLoad& load) { return !load.time.empty() || load.moving_speed; }) ||
          any(read.supports, [](const CaseSupport& s) { return !s.motion.empty() || s.motion_law; }) ||
          any(read.sliding_joints, [](const CaseSlidingJoint& joint) {
-           return joint.motion_speed || !joint.motion_table.empty() || joint.motion_law;
+           return joint.motion_speed || !joint.motion_table.empty() || joint.motion_law ||
+                  (joint.friction && joint.friction->force.size() > 1);
          });
 }
 

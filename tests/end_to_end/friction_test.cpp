@@ -158,6 +158,26 @@ TEST(FrictionRun, WhatABrakeTakesIsLostAsTheBodySlides) {
   EXPECT_NEAR(run.last("energy.dissipated [J]"), 0.45 * 0.45 / 2, 1e-9);
 }
 
+// Its impulse, 0.4 N s, was gone with the steps that jumped over it, whatever their error control saw.
+TEST(FrictionRun, ABrakeThatCatchesBetweenTwoStepsTakesItsImpulse) {
+  struct Steps {
+    const char* analysis;
+    double near;  // of steps whose lengths jump [m/s]
+  };
+  for (const Steps& steps : {Steps{R"({"end_time": 0.1, "step": "1 ms"})", 4e-3},
+                             Steps{R"({"end_time": 0.1, "step": "10 ms"})", 4e-3},
+                             Steps{R"({"end_time": 0.1, "tolerance": 1e-4})", 1e-3},
+                             Steps{R"({"end_time": 0.1, "tolerance": 1e-6})", 2e-4}}) {
+    const CaseRun run = run_rubbing(rubbing_case(R"({"polyline": [[0, 0, 0], [4, 0, 0]]})", 2,
+                                                 R"("at": {"length": 1}, "speed": 2, "friction": {"force":
+                                   [[0.0303, 0], [0.0304, 1000], [0.0307, 1000], [0.0308, 0]]})",
+                                                 steps.analysis, "", R"("gravity": [0, 0, 0], )"));
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_NEAR(run.last("bead.vx [m/s]"), 2 - 0.4 / 2, steps.near) << steps.analysis;
+    EXPECT_NEAR(run.last("energy.dissipated [J]"), (2 * 2 - 1.8 * 1.8) * 2 / 2, 1e-3) << steps.analysis;
+  }
+}
+
 TEST(FrictionRun, OnACircleABodySwingsUpComesToRestAndGoesBack) {
   // F2. Clockwise from the height of the centre, by the angle phi from there.
   const double R = 3, mu = 0.25;
@@ -256,6 +276,25 @@ TEST(FrictionRun, AtRestABodyStaysWhereFrictionHoldsItOrSlidesThere) {
   const CaseRun slides = resting(1, 0.25);
   ASSERT_EQ(slides.code, 0) << slides.messages;
   EXPECT_NEAR(slides.last("bead.s [m]"), 3 * (pi / 2 - std::atan(0.25)), 1e-5);
+}
+
+// Its table is read where those of loads are: at the factor, which is 1 where none is given.
+TEST(FrictionRun, AtRestABrakeOverTimeIsThatOfTheFactor) {
+  const auto braked = [&](const char* rows, const char* analysis) {
+    return run_rubbing(rubbing_case(
+        slope_down(30), 2,
+        std::string(R"("at": {"length": 1}, "at_beam_end": "stop", "friction": {"force": )") + rows + "}",
+        analysis));
+  };
+  for (const char* analysis : {R"({"type": "static"})", R"({"type": "static", "load_steps": [1]})"}) {
+    const CaseRun closes = braked("[[0, 0], [1, 50]]", analysis);
+    ASSERT_EQ(closes.code, 0) << closes.messages;
+    EXPECT_NEAR(closes.last("bead.s [m]"), 1, 1e-9) << analysis;
+    EXPECT_NEAR(closes.last("bead.friction_force [N]"), -2 * gravity / 2, 1e-6) << analysis;
+    const CaseRun opens = braked("[[0, 50], [1, 0]]", analysis);
+    ASSERT_EQ(opens.code, 0) << opens.messages;
+    EXPECT_NEAR(opens.last("bead.s [m]"), 400, 1e-6) << analysis;
+  }
 }
 
 TEST(FrictionRun, ADriveWorksAgainstFriction) {

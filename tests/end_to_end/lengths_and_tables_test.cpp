@@ -311,6 +311,46 @@ TEST(TableFiles, ThatCannotBeReadNamePlaceAndLine) {
   says(R"(loads[0].time={"file": "table.csv"})", "1,0\n0,0\n", "times must increase");
 }
 
+// A free bar of 61.65 kg; what a force gives it in all [N s], whatever the steps.
+void expect_impulse(const std::string& load, double impulse, double near) {
+  const double mass = 7850 * M_PI * 0.0025;
+  for (const char* analysis : {R"({"end_time": 0.1, "step": "10 ms"})",
+                               R"({"end_time": 0.1, "step": "1 ms"})", R"({"end_time": 0.1})"}) {
+    const CaseRun run = run_text(R"({
+      "nurbeam": 1, "gravity": [0, 0, 0],
+      "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.05 },
+                  "material": { "density": 7850, "youngs_modulus": 2e11 }, "elements": { "count": 4 } }],
+      "loads": [)" + load + R"(], "analysis": )" +
+                                 analysis + R"(,
+      "output": { "report": false, "every": 0.05, "probes": [{ "name": "m", "beam": "b", "at": { "fraction": 0.5 } }] } })");
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_NEAR(mass * run.last("m.vx [m/s]"), impulse, near) << load << analysis;
+    EXPECT_NEAR(run.last("time [s]"), 0.1, 1e-12);
+  }
+}
+
+// A step that lay across one took half of it for what acts all along the step.
+TEST(LoadTables, JumpBetweenSteps) {
+  const auto all_along = [](const std::string& rows) {
+    return R"({ "beam": "b", "force_per_length": [100, 0, 0], "time": )" + rows + "}";
+  };
+  expect_impulse(all_along("[[0.0303, 1], [0.030300000001, 0]]"), 3.03, 1e-6);
+  expect_impulse(all_along("[[0, 1], [1e-12, 0], [0.05, 0], [0.050000000001, 1]]"), 5, 1e-6);
+}
+
+// But for the last two, which are a jump: 1e-5 of a step of 10 ms, at most.
+TEST(LoadTables, LoseNoTimeWhereTheirRowsAreDense) {
+  std::string rows = "[[0, 1]";
+  for (int i = 0; i < 200; ++i) rows += ", [" + std::to_string(30000000 + 50 * i) + "e-9, 1]";
+  expect_impulse(R"({ "beam": "b", "force_per_length": [100, 0, 0], "time": )" + rows + "]}", 10, 1e-5);
+}
+
+TEST(MovingForce, IsGoneOnceItHasLeftTheBeam) {
+  expect_impulse(
+      R"({ "beam": "b", "at": { "length": 0.2 }, "force": [100, 0, 0], "moves": { "speed": 15 } })",
+      100 * 0.8 / 15, 0.05);
+}
+
 // A body on a stiff slope of 30 degrees: held for 0.2 s, then s = g sin(30) t^2/2.
 TEST(Release, ABodyIsHeldUntilItsTime) {
   const std::string slope = R"({

@@ -565,6 +565,32 @@ TEST(StopsRun, AtRestABodyLeansAgainstItsStop) {
   EXPECT_NEAR(buffer.run.last("bead.s [m]"), 2 + 5 * weight / 2 / 1000, 1e-6);
 }
 
+// As at rest: what keeps each body in its place is what is missing to its weight along the beam.
+TEST(StopsRun, ABodyThatHasComeToRestIsHeldByItsStopAndByItsNeighbour) {
+  const StopRun stops = run_stops(R"({"nurbeam": 1,
+    "beams": [{"name": "rail", "rigid": true, "axis": )" +
+                                  std::string(thirty_degrees) + R"(}],
+    "bodies": [{"name": "upper", "mass": 2}, {"name": "lower", "mass": 3}],
+    "sliding_joints": [{"body": "upper", "beam": "rail", "at": {"length": 1}},
+      {"body": "lower", "beam": "rail", "at": {"length": 2}}],
+    "stops": [{"beam": "rail", "bodies": ["upper", "lower"], "gap": 0.3},
+      {"beam": "rail", "at": {"length": 5}, "bodies": ["lower"]}],
+    "analysis": {"end_time": 3, "step": "10 ms"}})");
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_EQ(stops.run.value(0, "lower.holding_force [N]"), 0);
+  EXPECT_NEAR(stops.run.last("upper.s [m]"), 4.7, 1e-9);
+  EXPECT_NEAR(stops.run.last("upper.holding_force [N]"), -2 * weight / 2, 1e-8);
+  EXPECT_NEAR(stops.run.last("lower.holding_force [N]"), -3 * weight / 2, 1e-8);
+}
+
+TEST(StopsRun, OnItsWayBackABodyIsHeldFromBelow) {
+  const StopRun stops = run_stops(
+      one_body(R"({"polyline": [[0, 0, 0], [17.320508075688775, 0, 10]]})", 5, R"("at": {"length": 3})",
+               R"([{"beam": "rail", "at": {"length": 2}}])", R"({"end_time": 2, "step": "10 ms"})"));
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_NEAR(stops.run.last("bead.holding_force [N]"), 5 * weight / 2, 1e-8);
+}
+
 // Which of two bodies passes its end first in a step does not hang on their order.
 TEST(StopsRun, BodiesThatReachEndsInOneStepReachThemWhenTheyDo) {
   const double slope = weight / std::sqrt(5), length = std::sqrt(20);
