@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace nurbeam {
 
@@ -9,6 +10,33 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
+
+// By how much the factors of columns are too large: where a column of a constraint outweighs all others by so
+// much, what it has in B is nothing beside what they have, and round-off, as of the curvature of a straight
+// guide.
+Vector excess_of_columns(const Matrix& kkt, int n, const Vector& factor) {
+  constexpr double nothing = 1e-13;  // of a stiffness
+  struct Row {
+    double first = 0, second = 0;
+    int column = -1;  // of the first
+  };
+  std::vector<Row> rows(static_cast<std::size_t>(kkt.rows() - n));
+  for (int column = 0; column < n; ++column)
+    for (Matrix::InnerIterator entry(kkt, column); entry; ++entry) {
+      if (entry.row() < n) continue;
+      Row& row = rows[static_cast<std::size_t>(entry.row() - n)];
+      const double weight = std::abs(entry.value()) * factor[column];
+      if (weight > row.first)
+        row = {weight, row.first, column};
+      else
+        row.second = std::max(row.second, weight);
+    }
+  Vector excess = Vector::Ones(n);
+  for (const Row& row : rows)
+    if (row.second > 0 && row.second < std::sqrt(nothing) * row.first)
+      excess[row.column] = std::max(excess[row.column], row.first / row.second);
+  return excess;
+}
 
 }  // namespace
 
@@ -18,6 +46,7 @@ Vector equilibration(const Matrix& kkt, int n) {
     for (Matrix::InnerIterator entry(kkt, column); entry; ++entry)
       if (entry.row() < n) largest[column] = std::max(largest[column], std::abs(entry.value()));
   Vector factor = (largest.array() > 0).select(largest.cwiseSqrt().cwiseInverse(), 1.0);
+  factor.head(n).array() /= excess_of_columns(kkt, n, factor).array();
   Vector of_constraints = Vector::Zero(kkt.cols());
   for (int column = 0; column < n; ++column)
     for (Matrix::InnerIterator entry(kkt, column); entry; ++entry)

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <random>
 
 namespace nurbeam {
@@ -60,6 +61,26 @@ TEST(Stability, IsNotLostToWhatTheConstraintsForbid) {
       ASSERT_TRUE(found);
       EXPECT_EQ(found->unstable_directions, stiffness > 0 ? 0 : 1) << coupling;
     }
+}
+
+// Two bodies that press a spring together, held on a straight guide whose curvature is round-off: nothing can
+// move, however soft the spring makes them across it.
+TEST(Stability, TakesRoundOffForNoStiffness) {
+  const double c = 0.802, s = std::sqrt(1 - c * c), k = 33, N = 15;
+  for (const double curvature : {0.0, 1e-17, -1e-17, 1e-19}) {
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(6, 6), G = Eigen::MatrixXd::Zero(6, 6);
+    Eigen::Matrix2d spring;
+    spring << k * c * c - N * s * s, -(k + N) * c * s, -(k + N) * c * s, k * s * s - N * c * c;
+    for (const int i : {0, 3})
+      for (const int j : {0, 3}) K.block<2, 2>(i, j) = (i == j ? 1 : -1) * spring;
+    for (const int i : {0, 3}) {
+      K(i + 2, i + 2) = curvature;
+      G.block<3, 3>(i, i) << -0.55, 0, 0.55 * c, 0, -0.63, -0.63 * s, 0, 0, 1;
+    }
+    const auto found = stability(kkt(K, G), 6);
+    ASSERT_TRUE(found) << curvature;
+    EXPECT_EQ(found->unstable_directions, 0) << curvature;
+  }
 }
 
 TEST(Stability, SaysNothingOfAnUnsymmetricTangent) {

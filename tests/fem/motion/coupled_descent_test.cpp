@@ -255,6 +255,24 @@ TEST(RestAtAnEnd, IsNoneForBodiesOfWhichOneSlidesOff) {
   EXPECT_NEAR(*rest.bodies[1].s, 5, 1e-9);
 }
 
+// The lower of two on a guide that lies askew rests there, and bears the other by a spring.
+TEST(RestAtAnEnd, IsThatOfABodyThatBearsAnotherByASpring) {
+  for (const double askew : {0.0, 1.0, 2.3})
+    for (const double stiffness : {1e3, 1e5}) {
+      ModelBuilder builder(3, {0, 0, -gravity_of_bowl});
+      const Eigen::Vector3d end(8, askew, -6);
+      builder.add_guide(ReferenceCurve({testing::line_cubic({0, 0, 0}, end)}, 3));
+      for (const double s : {2.0, 4.0}) builder.slide(builder.add_body("", 10), 0, s);
+      builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::spring, stiffness);
+      BeamModel model = builder.build();
+      model.stops = {{.joint = 1, .place = 7}};
+      const Snapshot rest = rest_of(model);
+      const double pull = 10 * gravity_of_bowl * 6 / end.norm();
+      EXPECT_NEAR(*rest.bodies[1].s, 7, 1e-9) << askew;
+      EXPECT_NEAR(*rest.bodies[0].s, 5 + pull / stiffness, 1e-9) << askew;
+    }
+}
+
 // However stiff it is: the force of a slope ends in one that is up to a million times as steep.
 TEST(RestAtAnEnd, IsWhereABufferHoldsABody) {
   for (const double start : {0.3, 1.0, 2.2, 3.9})
