@@ -85,7 +85,7 @@ SharedPulls::SharedPulls(const BeamModel& model) : model_(model) {
       const int next = next_along(model, *support, on);
       if (next < 0) continue;
       const double s_next = std::get<Support>(model.constraints[next]).s;
-      const auto [first, last] = std::minmax(support->s, s_next);
+      const double first = std::min(support->s, s_next), last = std::max(support->s, s_next);
       const bool has_kink = std::any_of(beam.home.begin(), beam.home.end(), [&](const HomeNode& node) {
         return node.s > first && node.s < last && is_kink(node);
       });
