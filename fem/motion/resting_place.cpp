@@ -197,11 +197,11 @@ class RestSearch {
 
   // With all sliding bodies held where the plan has them.
   bool hold_in_equilibrium(MeshPlan plan) {
-    const StaticReport found = held_equilibrium(std::move(plan));
+    const StaticReport found = equilibrium_of(std::move(plan));
     if (found.status == StaticStatus::converged) return true;
     return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
   }
-  StaticReport held_equilibrium(MeshPlan plan) {
+  StaticReport equilibrium_of(MeshPlan plan) {
     const std::vector<bool> held(model().joints.size(), true);
     at_.system = at_.system->replanned(std::move(plan), held);
     return find_equilibrium(at_, held);
@@ -255,7 +255,7 @@ class RestSearch {
     std::vector<double> all = parts;
     for (int halvings = 0; halvings <= most_halvings; ++halvings) {
       nearby_only_ = true;
-      const StaticReport found = held_equilibrium(held_at(at_, moved_places()));
+      const StaticReport found = equilibrium_of(held_at(at_, moved_places()));
       nearby_only_ = false;
       if (found.status == StaticStatus::converged) return true;
       for (double& part : parts) part /= 2;
