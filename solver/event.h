@@ -10,7 +10,8 @@ struct StepTaken {
   const State& before;
   const IntegratorHistory& history;  ///< at `before`
   const State& after;
-  double length;  ///< [s]
+  double length;               ///< [s]
+  long* iterations = nullptr;  ///< to which Newton's of repeated steps are added, if anywhere
 };
 
 /// The state just before an event to which a step of another length from `taken.before` leads: 0 >= g >

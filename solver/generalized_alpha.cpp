@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "solver/arguments.h"
+#include "solver/balance_reference.h"
+#include "solver/convergence.h"
 #include "solver/finite.h"
 #include "solver/mass_scale.h"
 #include "solver/side_by_side.h"
@@ -13,21 +15,15 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;      ///< of the step under error control
-constexpr double good_contraction = 0.1;  ///< of the corrections, for which a matrix is kept
+constexpr double largest_growth = 2;  ///< of the step under error control
 /// Of the first two, in which it is that of Newton's method more than that of the matrix.
 constexpr double first_contraction = 0.5;
-constexpr double hardly_smaller = 0.5;      ///< contraction of what is round-off
-constexpr double quick_contraction = 0.02;  ///< of corrections and residuals, which foretells the next ones
-constexpr double quickest_kept = 5e-3;      ///< contraction by a matrix that is kept, which is relied on
-constexpr double to_spare = 5;              ///< of what is foretold so
 /// Corrections beyond those that the first step with a matrix took, after which it is taken anew: that costs
 /// about as many.
 constexpr int worth_a_matrix = 12;
 constexpr double longest_use = 50;  ///< of a matrix, in steps
 constexpr double same_step = 1e-6;  ///< relative difference that a matrix does not feel
 constexpr double safety = 0.9;
-constexpr double round_off = 32 * std::numeric_limits<double>::epsilon();
 
 constexpr const char* generalized_alpha_method = "generalized-alpha";
 
@@ -60,40 +56,6 @@ double largest(const Numbers& numbers) {
   if (!all_finite(numbers)) return std::numeric_limits<double>::quiet_NaN();
   return numbers.size() > 0 ? numbers.template lpNorm<Eigen::Infinity>() : 0;
 }
-
-/// The residuals and corrections of one step, each with what the last correction left of the one before.
-class Convergence {
- public:
-  /// Takes the norm of a residual and of the correction that answered it; both have one tolerance.
-  bool reached(double residual, double correction, double tolerance) {
-    contraction_ = correction / correction_;
-    const double last = correction_, balance = residual / residual_;
-    correction_ = correction;
-    residual_ = residual;
-    const bool small = correction <= tolerance;
-    if (!std::isfinite(last)) return false;
-    // Where forces are in balance, one more correction takes what is left; what would be left of that is
-    // foretold by the last two.
-    const bool foretold = contracts() && contraction_ * correction <= tolerance;
-    if (residual <= tolerance && (small || foretold)) return true;
-    // Where both are quickly brought down, the balance is foretold as well, with much to spare: no quicker
-    // than a kept matrix does it, whatever its first correction has done.
-    const double rate = std::max({balance, contraction_, quickest_kept});
-    if (foretold && rate <= quick_contraction && to_spare * rate * residual <= tolerance) return true;
-    // Two small ones running of which the second is hardly smaller are convergence too: the residual then
-    // sits on its own round-off.
-    return small && last <= tolerance && !contracts(hardly_smaller);
-  }
-  /// The norm of the last one, without bound before the first.
-  double last_correction() const { return correction_; }
-  /// Whether the last correction was no larger than this part of the one before.
-  bool contracts(double to = good_contraction) const { return contraction_ <= to; }
-
- private:
-  double correction_ = std::numeric_limits<double>::infinity();
-  double residual_ = std::numeric_limits<double>::infinity();
-  double contraction_ = 0;
-};
 
 }  // namespace
 
@@ -229,7 +191,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
     // What is below the tolerance may be round-off, which nothing contracts.
     const bool stale = correction > settings_.newton_tolerance &&
-                       !convergence.contracts(i == 1 ? first_contraction : good_contraction);
+                       !convergence.contracts(i == 1 ? first_contraction : Convergence::good_contraction);
     if (stale) linearisation_ = nullptr;
     if (!done) continue;
     if (!has_served || stale)
@@ -276,7 +238,10 @@ bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> 
     return false;
   }
   system_->moving_tangent(linearisation_->state, weights, moving_part_);
-  measure_reference(still);
+  const double step = linearisation_->step;
+  measure_balance(*system_, linearisation_->state, kkt_.data(),
+                  {parameters_.beta * step * step, mass_scale_, settings_.newton_tolerance}, inverse_scale_,
+                  still, reference_);
   factorised_ = linearisation_;
   return true;
 }
@@ -363,50 +328,6 @@ double GeneralizedAlphaIntegrator::scale_residual(double step) {
   const Eigen::Index m = trial_.lambda.size();
   const double of_constraints = largest(residual_.tail(m).cwiseProduct(reference_.tail(m)));
   return of_constraints > of_forces || std::isnan(of_constraints) ? of_constraints : of_forces;
-}
-
-/// Dynamic rows: the largest force, of f and G'lambda, in units of work over the coordinate scale. Constraint
-/// rows: what the accelerations move the constraint in the step. Both: the round-off of the matrix times the
-/// unknowns, weighted so that it passes the tolerance. All where the matrix was taken; its inverse.
-void GeneralizedAlphaIntegrator::measure_reference(State& still) {
-  const State& at = linearisation_->state;
-  const Eigen::Index n = at.q.size();
-  const Eigen::Index m = at.lambda.size();
-  const double scaling = parameters_.beta * linearisation_->step * linearisation_->step;
-  const double floor = round_off / settings_.newton_tolerance;
-  still.a.setZero();
-  still.lambda.setZero();
-  // In the room of the reference: one kind of force after the other.
-  const auto largest_work = [&] {
-    return reference_.head(n).cwiseAbs().cwiseQuotient(inverse_scale_).lpNorm<Eigen::Infinity>();
-  };
-  system_->residual(still, reference_.head(n), reference_.tail(m));
-  still.a = at.a;
-  still.lambda = at.lambda;
-  const double of_forces = largest_work();
-  double* reference = reference_.data();
-  const double* values = kkt_.data();
-  const SparsePattern& pattern = system_->tangent_pattern();
-  const int *rows = pattern.rows().data(), *starts = pattern.column_starts().data();
-  reference_.setZero();
-  for (Eigen::Index column = n; column < n + m; ++column)
-    for (int k = starts[column]; k < starts[column + 1]; ++k)
-      if (rows[k] < n) reference[rows[k]] += values[k] * at.lambda[column - n];
-  const double work = std::max(of_forces, largest_work());
-  reference_.setConstant(std::numeric_limits<double>::min());
-  for (Eigen::Index column = 0; column < n; ++column) {
-    const double rounding = floor * (std::abs(at.q[column]) + 1 / inverse_scale_[column]);
-    const double moved = rounding + scaling * std::abs(at.a[column]);
-    for (int k = starts[column]; k < starts[column + 1]; ++k)
-      reference[rows[k]] += (rows[k] < n ? rounding : moved) * std::abs(values[k]);
-  }
-  for (Eigen::Index column = n; column < n + m; ++column) {
-    const double rounding = floor * std::abs(at.lambda[column - n]) * scaling / mass_scale_;
-    for (int k = starts[column]; k < starts[column + 1]; ++k)
-      reference[rows[k]] += rounding * std::abs(values[k]);
-  }
-  reference_.head(n) += scaling / mass_scale_ * work * inverse_scale_;
-  reference_ = reference_.cwiseInverse();
 }
 
 /// Solves for the correction that answers the residual. Returns the largest correction of q over the

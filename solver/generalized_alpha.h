@@ -89,7 +89,6 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   bool renew_moving_part();
   void evaluate_residual();
   double scale_residual(double step);
-  void measure_reference(State& still);
   template <class Use>
   auto with_start(long first, long end, const Use& use) const;
   double find_correction();

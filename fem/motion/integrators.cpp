@@ -19,6 +19,11 @@ std::unique_ptr<Integrator> start(const ExplicitRungeKutta& settings, const Seco
   return std::make_unique<ExplicitIntegrator>(settings, system, from);
 }
 
+std::unique_ptr<Integrator> start(const Radau& settings, const SecondOrderSystem& system, const State& from,
+                                  const Integrator*) {
+  return std::make_unique<RadauIntegrator>(settings, system, from);
+}
+
 }  // namespace
 
 std::unique_ptr<Integrator> start_integrator(const IntegratorSettings& settings,

@@ -5,11 +5,12 @@
 #include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"
 #include "solver/ida_integrator.h"
+#include "solver/radau_integrator.h"
 
 namespace nurbeam {
 
 /// The methods that a motion can be integrated with.
-using IntegratorSettings = std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta>;
+using IntegratorSettings = std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta, Radau>;
 
 /// An integrator that goes on from a state with consistent accelerations. The system must outlive it.
 /// `before`: one with these settings on another mesh of the same model, whose scales last.

@@ -97,7 +97,8 @@ std::optional<StepEvent> land_on_event(Run& run, const State& before, const Inte
     const std::optional<StepEvent> event = first_event(*run.at.system, before, state, start);
     if (!event) break;
     const State after = state;
-    state = landed(*run.at.system, *run.integrator, {before, history, after, after.t - before.t}, *event);
+    state = landed(*run.at.system, *run.integrator,
+                   {before, history, after, after.t - before.t, &run.report.newton_iterations}, *event);
     if (state.t - before.t < run.resolution() && is_sudden(model, *event)) state = before;
     found = event;
   }
@@ -123,7 +124,9 @@ void land_on_change(Run& run, const StepTaken& taken) {
   // A repeated step misses what was interpolated by a little.
   for (double miss = 1e-8; miss < 1e-2; miss *= 10) {
     const double length = (after + miss) * taken.length;
-    if (integrator.repeat(taken.before, taken.history, length).status != StepStatus::converged) break;
+    const StepReport repeated = integrator.repeat(taken.before, taken.history, length);
+    run.report.newton_iterations += repeated.newton_iterations;
+    if (repeated.status != StepStatus::converged) break;
     if (!due(integrator.state())) continue;
     run.at.state = integrator.state();
     return;
@@ -148,7 +151,7 @@ std::optional<Crossing> land_at_first(Run& run, const State& before, const Integ
     const std::optional<Crossing> found = find(state);
     if (!found) break;
     first = found;
-    land_at(run, {before, history, State(state), state.t - before.t}, *first);
+    land_at(run, {before, history, State(state), state.t - before.t, &run.report.newton_iterations}, *first);
   }
   return first;
 }
@@ -214,6 +217,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   MeshedState& at = run.at;
   const IntegratorHistory history = may_be_repeated(run) ? run.integrator->history() : IntegratorHistory();
   const double asked = run.transient > 0 ? std::min(step, run.transient) : step;
+  const long iterations = run.report.newton_iterations;
   const StepReport taken = step_keeping_energy(run, history, asked);
   run.report.newton_iterations += taken.newton_iterations;
   run.report.rejected_steps += taken.rejected;
@@ -242,7 +246,8 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
     run.observer.follower->steps({before, history, at.state, at.state.t != end, asked, rest,
                                   distance_to(*run.model, landing, before)});
   const double length = at.state.t == end ? taken.step : at.state.t - before.t;
-  run.last_record = {at.state.t, length, taken.newton_iterations, taken.rejected};
+  run.last_record = {at.state.t, length, static_cast<int>(run.report.newton_iterations - iterations),
+                     taken.rejected};
   run.steps.push_back(run.last_record);
   run.account.add_step(*at.system, before, at.state, first);
   return pass(run, landing, before);

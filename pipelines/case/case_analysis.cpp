@@ -11,14 +11,19 @@ namespace {
 // Steps are fixed unless there is none: then the integrator chooses them by the tolerance.
 IntegratorSettings read_integrator(const Json& json, std::optional<double> tolerance, bool fixed_steps,
                                    Findings& findings) {
-  enum class Method { generalized_alpha, ida, rk4 };
-  const auto method = chosen<Method>(
-      json, "type",
-      {{"generalized-alpha", Method::generalized_alpha}, {"ida", Method::ida}, {"rk4", Method::rk4}});
+  enum class Method { generalized_alpha, radau, ida, rk4 };
+  const auto method = chosen<Method>(json, "type",
+                                     {{"generalized-alpha", Method::generalized_alpha},
+                                      {"radau", Method::radau},
+                                      {"ida", Method::ida},
+                                      {"rk4", Method::rk4}});
   if (method != Method::generalized_alpha && has(json, "rho_infinity"))
     findings.add(Severity::warning, "analysis.integrator.rho_infinity",
                  "has an effect with \"generalized-alpha\" only");
+  const auto tolerance_or = [&](double otherwise) { return fixed_steps ? 0 : tolerance.value_or(otherwise); };
   switch (method) {
+    case Method::radau:
+      return Radau{.tolerance = tolerance_or(1e-3)};
     case Method::ida:
       return Ida{.tolerance = tolerance.value_or(Ida{}.tolerance)};
     case Method::rk4:
@@ -26,9 +31,8 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
     case Method::generalized_alpha:
       break;
   }
-  constexpr double default_tolerance = 1e-4;
   return GeneralizedAlpha{.rho_infinity = number(json, "rho_infinity", GeneralizedAlpha{}.rho_infinity),
-                          .tolerance = fixed_steps ? 0 : tolerance.value_or(default_tolerance)};
+                          .tolerance = tolerance_or(1e-4)};
 }
 
 std::vector<double> read_load_factors(const Json& json, Findings& findings) {

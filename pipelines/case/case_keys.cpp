@@ -425,9 +425,10 @@ Shape connector() {
 
 Shape analysis() {
   const Shape integrator = object(
-      {{"type", choice({"generalized-alpha", "ida", "rk4"}),
-        "ida: SUNDIALS' BDF of variable order, slow on stiff beams without damping; rk4: explicit, fixed "
-        "`step`, no sliding bodies; generalized-alpha when omitted"},
+      {{"type", choice({"generalized-alpha", "radau", "ida", "rk4"}),
+        "radau: Radau IIA of order five, for adaptive or long steps; ida: SUNDIALS' BDF of variable order, slow "
+        "on stiff beams without damping; rk4: explicit, fixed `step`, no sliding bodies; generalized-alpha when "
+        "omitted"},
        {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
         "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"}});
   const Shape length_control =
@@ -458,7 +459,7 @@ Shape analysis() {
        {"tolerance",
         quantity(Dimension::number,
                  {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
-        "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
+        "local error of adaptive steps; 1e-4 when nothing is said, 1e-3 with radau, 1e-8 with ida"},
        {"load_steps",
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "

@@ -88,7 +88,7 @@ std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, co
       std::to_string(run.cut_steps) + " of " + std::to_string(run.steps) + " steps were shorter, down to " +
           text_of(run.shortest_cut, 3) +
           " s: a body that is carried as a node slides over a fifth of the element beside it in a step, at "
-          "most; longer elements or \"carried_as\": \"point\" leave steps as long as asked for"};
+          "most (three tenths with \"radau\"); longer elements or \"carried_as\": \"point\" leave steps as long as asked for"};
 }
 
 std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run) {

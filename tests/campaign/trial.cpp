@@ -224,6 +224,7 @@ SimulationOptions options_of(const CaseAnalysis& a, int refinement) {
   if (a.step) options.step = *a.step / finer;
   if (auto* method = std::get_if<GeneralizedAlpha>(&options.integrator); method && method->tolerance > 0)
     method->tolerance /= std::pow(finer, 3);
+  if (auto* method = std::get_if<Radau>(&options.integrator)) method->tolerance /= std::pow(finer, 4);
   if (auto* method = std::get_if<Ida>(&options.integrator)) method->tolerance /= std::pow(finer, 3);
   constexpr int frames = 20;
   for (int i = 0; !options.statics && i <= frames; ++i)
@@ -238,7 +239,8 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   std::vector<ProbePlace> probes;
   for (const Probe& probe : built.probes) probes.push_back({probe.beam, probe.s});
   long steps = 0;
-  const bool with_accelerations = std::holds_alternative<GeneralizedAlpha>(options.integrator);
+  const bool with_accelerations = std::holds_alternative<GeneralizedAlpha>(options.integrator) ||
+                                  std::holds_alternative<Radau>(options.integrator);
   SimulationObserver observer;
   std::optional<MeshPlan> plan;
   std::size_t events = 0;

@@ -1,4 +1,4 @@
-// IDA and the explicit method, which share nothing with generalized-alpha, on the same models.
+// IDA, Radau and the explicit method, which share nothing with generalized-alpha, on the same models.
 
 #include "tests/convergence/run_model.h"
 #include "tests/support/models.h"
@@ -39,6 +39,20 @@ TEST(Ida, AgreesWithGeneralizedAlphaThroughTheEventsOfTheFallingBeam) {
   EXPECT_LT(largest_integrator_difference(tight, ida), 1e-5);
   EXPECT_LT(largest_integrator_difference(tight, fine), largest_integrator_difference(tight, coarse) / 3);
   EXPECT_LT(largest_integrator_difference(tight, fine), 1e-5);
+}
+
+TEST(Radau, AgreesWithGeneralizedAlphaThroughTheEventsOfTheFallingBeam) {
+  BeamModel model = one_beam({line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
+                             round_bar(0.01, 7200, 20e6, CurvatureMeasure::spatial), 20, {{0, true}});
+  add_slider(model, 0.8, 0.1);
+  const std::vector<double> times = even_times(0.3, 6);
+  const RunRecord radau = run_model(model, times, 2e-3, Radau{}, {{0, 1.0}});
+  const RunRecord tight = run_model(model, times, 1e-3, Radau{}, {{0, 1.0}});
+  const RunRecord fine = run_model(model, times, 1.25e-4, 0.9, {{0, 1.0}});
+  EXPECT_GT(radau.report.events.size(), 1U);
+  EXPECT_LT(largest_integrator_difference(radau, tight), 3e-6);
+  EXPECT_LT(largest_integrator_difference(tight, fine), 3e-6);
+  EXPECT_LT(radau.report.newton_iterations, fine.report.newton_iterations / 4);
 }
 
 BeamModel pendulum() {

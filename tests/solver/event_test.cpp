@@ -7,6 +7,7 @@
 #include "solver/explicit_integrator.h"
 #include "solver/generalized_alpha.h"
 #include "solver/ida_integrator.h"
+#include "solver/radau_integrator.h"
 #include "tests/support/small_systems.h"
 
 namespace nurbeam {
@@ -45,6 +46,8 @@ TEST(Event, IsLandedJustBeforeByEveryMethod) {
   check_landing(ida, pendulum, 1e-2, 1e-5);
   ExplicitIntegrator rk4({}, pendulum, start);
   check_landing(rk4, pendulum, 1e-3, 1e-8);
+  RadauIntegrator radau({}, pendulum, start);
+  check_landing(radau, pendulum, 3e-2, 1e-7);
 }
 
 TEST(Integrator, RestoredGoesOnAsIfItHadNotStopped) {
@@ -90,6 +93,8 @@ TEST(Integrator, GivesAwayTheStateBeforeAStep) {
   check_state_before(ida, other_ida);
   ExplicitIntegrator rk4({}, pendulum, start), other_rk4({}, pendulum, start);
   check_state_before(rk4, other_rk4);
+  RadauIntegrator radau({}, pendulum, start), other_radau({}, pendulum, start);
+  check_state_before(radau, other_radau);
 }
 
 TEST(Integrator, GoesOnAfterARestAsIfThereHadBeenNone) {

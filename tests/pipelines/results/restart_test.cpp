@@ -168,6 +168,13 @@ TEST(Restart, WithRungeAndKuttaARunGoesOnBitByBit) {
   expect_resumes_bit_by_bit(model, options_with(ExplicitRungeKutta{}, 1e-3));
 }
 
+TEST(Restart, WithRadauARunGoesOnBitByBitThroughChangesOfTheMesh) {
+  expect_resumes_bit_by_bit(falling_beam(), options_with(Radau{}, 1e-3));
+  SimulationOptions adaptive = options_with(Radau{.tolerance = 1e-3}, 1e-3);
+  adaptive.step.reset();
+  expect_resumes_bit_by_bit(falling_beam(), adaptive);
+}
+
 TEST(Restart, WithARigidCornerARunGoesOnBitByBit) {
   BeamModel model = testing::one_beam(
       {testing::line_cubic({0, 0, 0}, {0, 1, 0}), testing::line_cubic({0, 1, 0}, {0.7, 1, 0})}, 2,
