@@ -144,12 +144,9 @@ struct RadauIntegrator::Implementation {
 
   double local_error(double h) const {
     const RadauMethod& method = radau_method();
-    Eigen::VectorXd of_q = method.gamma * state.v, of_v = method.gamma * state.a;
-    for (int i = 0; i < stages; ++i) {
-      of_q += method.error[i] * at[i].v;
-      of_v += method.error[i] * at[i].a;
-    }
-    return equations.filtered(h * of_q, h * of_v);
+    Eigen::VectorXd of_q = method.gamma * state.v;
+    for (int i = 0; i < stages; ++i) of_q += method.error[i] * at[i].v;
+    return equations.filtered(h * of_q);
   }
 
   void keep_stages(double h) {

@@ -24,7 +24,8 @@ struct Radau {
 /// system is smooth (Hairer, Lubich & Roche 1989); what is quicker than the step dies out in it. Steps before
 /// give a guess, nothing more. Each takes its matrices anew, in its middle.
 ///
-/// The local error is that of the embedded formula of order three in q, filtered (StageEquations::filtered).
+/// The local error is that of the embedded formula of order three in q, filtered (StageEquations::filtered);
+/// of v that formula makes none where accelerations begin as those of the stages do.
 class RadauIntegrator final : public Integrator {
  public:
   /// `start` must be consistent (a and lambda too). `system` must outlive the integrator. Throws

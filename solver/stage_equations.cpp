@@ -155,12 +155,10 @@ std::array<StageCorrection, StageEquations::stages> StageEquations::of_stages(co
   return corrections;
 }
 
-double StageEquations::filtered(const Eigen::VectorXd& of_q, const Eigen::VectorXd& of_v) const {
-  const double g = radau_method().gamma * h_;
-  Eigen::VectorXd slow = Eigen::VectorXd::Zero(n_ + m_), damped = slow;
-  slow.head(n_) = of_q + g * of_v;
-  damped.head(n_) = g * of_q;
-  Eigen::VectorXd x = (mass_ * slow + damping_ * damped) / mass_scale_;
+double StageEquations::filtered(const Eigen::VectorXd& of_q) const {
+  Eigen::VectorXd padded = Eigen::VectorXd::Zero(n_ + m_);
+  padded.head(n_) = of_q / mass_scale_;
+  Eigen::VectorXd x = mass_ * padded + radau_method().gamma * h_ * (damping_ * padded);
   x.tail(m_).setZero();
   real_solver_.solve(x, x);
   const auto error = x.head(n_).cwiseProduct(inverse_scale_);

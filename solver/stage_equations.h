@@ -47,9 +47,9 @@ class StageEquations {
   /// with every correction since they were taken (Kelley, Iterative Methods, 1995, 7.3). Returns the largest
   /// of q over the coordinate scale, not a number where one is not finite.
   double solve(const Residuals& residuals, std::array<StageCorrection, stages>& corrections);
-  /// Largest x over the coordinate scale of (q, v)-errors e filtered by the equations themselves,
-  /// (1 - h gamma J) x = e: what a formula's error leaves of motions that are quicker than the step.
-  double filtered(const Eigen::VectorXd& of_q, const Eigen::VectorXd& of_v) const;
+  /// Largest x over the coordinate scale of an error of q (n) filtered by the equations of first order
+  /// themselves, (1 - h gamma J) (x, y) = (of_q, 0): without motions that are quicker than the step.
+  double filtered(const Eigen::VectorXd& of_q) const;
 
  private:
   /// Of all stages, in the coordinates in which the equations are diagonal.

@@ -6,6 +6,7 @@
 
 #include "fem/forces/memory.h"
 #include "fem/mesh/stop_distance.h"
+#include "fem/motion/integrators.h"
 #include "fem/system/observables.h"
 #include "solver/consistent.h"
 
@@ -56,7 +57,7 @@ std::optional<double> time_of_connector(const MeshedState& at, int number) {
 }  // namespace
 
 bool settle_damper(Run& run, const StepEvent& event) {
-  if (!std::holds_alternative<GeneralizedAlpha>(run.options.integrator)) return true;
+  if (!damps_fast_motions(run.options.integrator)) return true;
   const auto* contact = std::get_if<ContactEvent>(&event);
   const auto* taut = std::get_if<TautEvent>(&event);
   std::optional<double> time;

@@ -26,6 +26,10 @@ std::unique_ptr<Integrator> start(const Radau& settings, const SecondOrderSystem
 
 }  // namespace
 
+bool damps_fast_motions(const IntegratorSettings& settings) {
+  return std::holds_alternative<GeneralizedAlpha>(settings) || std::holds_alternative<Radau>(settings);
+}
+
 std::unique_ptr<Integrator> start_integrator(const IntegratorSettings& settings,
                                              const SecondOrderSystem& system, const State& from,
                                              const Integrator* before) {

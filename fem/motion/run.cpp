@@ -22,7 +22,7 @@ bool Run::restart() {
 
 bool Run::restart_balanced(const std::vector<int>& around) {
   // Other methods want accelerations that are consistent everywhere.
-  if (!std::holds_alternative<GeneralizedAlpha>(options.integrator)) return restart();
+  if (!damps_fast_motions(options.integrator)) return restart();
   const double time = shortest_time();
   NearSolver solver;
   const auto balance = [&](MeshedState& of) {
@@ -91,7 +91,7 @@ bool Run::fail_in_impact(int joint) {
 }
 
 double Run::shortest_time() const {
-  if (!std::holds_alternative<GeneralizedAlpha>(options.integrator)) return 0;
+  if (!damps_fast_motions(options.integrator)) return 0;
   return transient > 0 ? std::min(step, transient) : step;
 }
 

@@ -20,10 +20,10 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
   if (method != Method::generalized_alpha && has(json, "rho_infinity"))
     findings.add(Severity::warning, "analysis.integrator.rho_infinity",
                  "has an effect with \"generalized-alpha\" only");
-  const auto tolerance_or = [&](double otherwise) { return fixed_steps ? 0 : tolerance.value_or(otherwise); };
+  const double of_steps = fixed_steps ? 0 : tolerance.value_or(1e-4);
   switch (method) {
     case Method::radau:
-      return Radau{.tolerance = tolerance_or(1e-3)};
+      return Radau{.tolerance = of_steps};
     case Method::ida:
       return Ida{.tolerance = tolerance.value_or(Ida{}.tolerance)};
     case Method::rk4:
@@ -32,7 +32,7 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
       break;
   }
   return GeneralizedAlpha{.rho_infinity = number(json, "rho_infinity", GeneralizedAlpha{}.rho_infinity),
-                          .tolerance = tolerance_or(1e-4)};
+                          .tolerance = of_steps};
 }
 
 std::vector<double> read_load_factors(const Json& json, Findings& findings) {

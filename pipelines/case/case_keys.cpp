@@ -459,7 +459,7 @@ Shape analysis() {
        {"tolerance",
         quantity(Dimension::number,
                  {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
-        "local error of adaptive steps; 1e-4 when nothing is said, 1e-3 with radau, 1e-8 with ida"},
+        "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
        {"load_steps",
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "

@@ -1,0 +1,79 @@
+// "integrator": {"type": "radau"}, from the case file to the results.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::test {
+namespace {
+
+constexpr double gravity = 9.81;
+const char* const radau = "analysis.integrator.type=radau";
+
+// A bead of 5 kg on a rigid rail that goes down by 30 degrees, from its start.
+std::string bead_case(const std::string& joint, const std::string& stops, const std::string& analysis) {
+  return R"({"nurbeam": 1, "beams": [{"name": "rail", "rigid": true,
+    "axis": {"polyline": [[0, 0, 0], [17.320508075688775, 0, -10]]}}],
+    "bodies": [{"name": "bead", "mass": 5}],
+    "sliding_joints": [{"body": "bead", "beam": "rail", "at": "start")" +
+         joint + R"(}], "stops": )" + stops + R"(, "analysis": )" + analysis + "}";
+}
+
+CaseRun run_text(const std::string& text, const std::vector<std::string>& overrides) {
+  const TemporaryDirectory directory;
+  return run_file(directory.write("case.json", text), overrides);
+}
+
+TEST(RadauRun, ABodyThatRubsTakesLongStepsDownASlope) {
+  const CaseRun run =
+      run_text(bead_case(R"(, "friction": {"coefficient": 0.2})", "[]", R"({"end_time": 1.5})"), {radau});
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const double a = gravity * (0.5 - 0.2 * std::sqrt(0.75));
+  EXPECT_NEAR(run.last("bead.s [m]"), a * 1.5 * 1.5 / 2, 1e-5);
+  EXPECT_NEAR(run.last("bead.friction_force [N]"), -0.2 * 5 * gravity * std::sqrt(0.75), 1e-7);
+  EXPECT_NEAR(run.last("energy.dissipated [J]"), 0.2 * 5 * gravity * std::sqrt(0.75) * run.last("bead.s [m]"),
+              1e-3);
+}
+
+TEST(RadauRun, ABodyThatReboundsFromAStopIsWhereItsArcsLead) {
+  const double a = gravity / 2, hit = std::sqrt(2 * 2 / a), speed = a * hit, end = 1.6;
+  for (const char* analysis : {R"({"end_time": 1.6})", R"({"end_time": 1.6, "step": 0.1})"}) {
+    const CaseRun run = run_text(
+        bead_case("", R"([{"beam": "rail", "at": {"length": 2}, "restitution": 0.6}])", analysis), {radau});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    const double back = end - hit;  // 0.697 s of the 1.084 s of the first arc
+    EXPECT_NEAR(run.last("bead.s [m]"), 2 - 0.6 * speed * back + a * back * back / 2, 1e-6) << analysis;
+    EXPECT_NEAR(run.last("energy.dissipated [J]"), 0.64 * 5 * a * 2, 1e-6) << analysis;
+  }
+}
+
+// Of order five: errors of long steps are those of steps of generalised-alpha that are many times shorter.
+TEST(RadauRun, AFallingBeamWithABodyIsWhereShortStepsHaveIt) {
+  const std::string text = R"({"nurbeam": 1, "gravity": [0, -9.81, 0],
+    "beams": [{"name": "beam", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"radius": 0.01},
+               "material": {"density": 7200, "youngs_modulus": "20 MPa"}, "elements": {"count": 10}}],
+    "supports": [{"beam": "beam", "at": "start", "type": "clamped"}],
+    "bodies": [{"name": "mass", "mass": 0.8}],
+    "sliding_joints": [{"body": "mass", "beam": "beam", "at": {"length": 0.1}}],
+    "analysis": {"end_time": 0.4}, "output": {"every": 0.1, "report": false}})";
+  const auto error = [&, exact = run_text(text, {"analysis.step=2e-5"})](const CaseRun& run) {
+    EXPECT_EQ(run.code, 0) << run.messages;
+    return std::hypot(run.last("mass.x [m]") - exact.last("mass.x [m]"),
+                      run.last("mass.y [m]") - exact.last("mass.y [m]"));
+  };
+  const CaseRun few = run_text(text, {radau}), many = run_text(text, {"analysis.step=5e-4"});
+  EXPECT_LT(error(few), error(many));
+  EXPECT_LT(error(few), 5e-6);
+}
+
+TEST(RadauRun, SaysWhatHasNoEffect) {
+  const CaseRun run =
+      run_text(bead_case("", "[]", R"({"end_time": 0.1})"), {radau, "analysis.integrator.rho_infinity=0.5"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_TRUE(run.says("rho_infinity: has an effect with \"generalized-alpha\" only")) << run.messages;
+}
+
+}  // namespace
+}  // namespace nurbeam::test
