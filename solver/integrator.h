@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "solver/state.h"
@@ -45,6 +46,8 @@ class Integrator {
   [[nodiscard]] virtual StepReport advance(double step) = 0;
   /// The state before the last step, which has converged: it is moved out, to be asked for once.
   virtual State take_before() = 0;
+  /// States within the last step, in order of time, where the method has found some: valid until the next.
+  virtual std::span<const State> within() const { return {}; }
   /// Gives room back that the next step makes anew, as that of a matrix and its factors.
   virtual void rest() {}
 

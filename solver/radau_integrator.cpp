@@ -160,8 +160,8 @@ struct RadauIntegrator::Implementation {
 
   void accept() {
     std::swap(before, state);
+    for (State& stage : at) stage.memory = system->committed(stage);
     state = at[stages - 1];
-    state.memory = system->committed(state);
   }
 
   Radau settings;
@@ -195,6 +195,12 @@ StepReport RadauIntegrator::advance(double step) {
 }
 
 State RadauIntegrator::take_before() { return std::move(implementation_->before); }
+
+std::span<const State> RadauIntegrator::within() const {
+  const auto& at = implementation_->at;
+  const bool of_last_step = at[stages - 1].t == implementation_->state.t;
+  return {at.data(), of_last_step ? stages - 1 : 0u};
+}
 
 IntegratorHistory RadauIntegrator::history() const {
   const KnownStages& known = implementation_->known;

@@ -39,6 +39,8 @@ class RadauIntegrator final : public Integrator {
   /// One step of at most `step` seconds (shortened by system.step_limit, by retries and by error control).
   [[nodiscard]] StepReport advance(double step) override;
   State take_before() override;
+  /// The stages before the last, with the memory that forces would have there.
+  std::span<const State> within() const override;
   /// Start and length of the last step that was tried, the mass scale, and a and lambda of its stages.
   IntegratorHistory history() const override;
   void restore(State state, const IntegratorHistory& history) override;

@@ -75,9 +75,27 @@ double unbalanced_work(const BeamSystem& system, const State& from, const State&
   return dynamics.dot(to.q - from.q) / 2;
 }
 
-double lost_in_step(const BeamSystem& system, const State& from, const State& to, bool first) {
-  const double damped = has_damped_beams(system.model()) ? dissipated_between(system, from, to) : 0;
-  return damped + lost_energy(system, from, to) - (first ? unbalanced_work(system, from, to) : 0);
+// Sum of energy(from, to) from each state on the way to the next.
+template <class Energy>
+double along(const StepPath& step, const Energy& energy) {
+  double sum = 0;
+  const State* from = &step.before;
+  for (const State& to : step.within) sum += energy(*std::exchange(from, &to), to);
+  return sum + energy(*from, step.after);
+}
+
+double lost_in_step(const BeamSystem& system, const StepPath& step, bool first) {
+  const bool damped = has_damped_beams(system.model());
+  const double lost = along(step, [&](const State& from, const State& to) {
+    return (damped ? dissipated_between(system, from, to) : 0) + lost_energy(system, from, to);
+  });
+  const State& settled = step.within.empty() ? step.after : step.within.front();
+  return lost - (first ? unbalanced_work(system, step.before, settled) : 0);
+}
+
+double taken_in_step(const BeamSystem& system, const StepPath& step) {
+  return along(
+      step, [&](const State& from, const State& to) { return input_work(system, from, to); });
 }
 
 // What events that are not in the books have added.
@@ -94,21 +112,21 @@ void EnergyAccount::begin(const BeamSystem& system, const State& state) {
   start_ = energy(system, state).mechanical() + dissipated_ - input_;
 }
 
-void EnergyAccount::add_step(const BeamSystem& system, const State& before, const State& after, bool first) {
-  if (after.t > before.t) dissipated_ += lost_in_step(system, before, after, first);
-  if (is_driven(system.model())) input_ += input_work(system, before, after);
+void EnergyAccount::add_step(const BeamSystem& system, const StepPath& step, bool first) {
+  if (step.after.t > step.before.t) dissipated_ += lost_in_step(system, step, first);
+  if (is_driven(system.model())) input_ += taken_in_step(system, step);
 }
 
-bool EnergyAccount::creates_energy(const BeamSystem& system, const State& before, const State& after,
-                                   bool first, const SimulationReport& report) {
+bool EnergyAccount::creates_energy(const BeamSystem& system, const StepPath& step, bool first,
+                                   const SimulationReport& report) {
   constexpr double most = 0.05, round_off = 1e-10;
-  const bool known = !first && known_.first == before.t;
-  const SystemEnergy old = known ? known_.second : energy(system, before);
-  const SystemEnergy now = energy(system, after);
-  known_ = {after.t, now};
+  const bool known = !first && known_.first == step.before.t;
+  const SystemEnergy old = known ? known_.second : energy(system, step.before);
+  const SystemEnergy now = energy(system, step.after);
+  known_ = {step.after.t, now};
   double gained = now.mechanical() - old.mechanical();
-  gained += lost_in_step(system, before, after, first);
-  if (is_driven(system.model())) gained -= input_work(system, before, after);
+  gained += lost_in_step(system, step, first);
+  if (is_driven(system.model())) gained -= taken_in_step(system, step);
   const double strain = old.strain(), fallen = std::abs(now.gravity - old.gravity);
   const double scale = std::max({report.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
   return gained > most * scale + round_off * (scale + std::abs(old.gravity)) + report.energy_noise;

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "fem/motion/simulation_report.h"
@@ -7,6 +8,14 @@
 #include "fem/system/beam_system.h"
 
 namespace nurbeam {
+
+/// A step, with states within it in order of time where its method has some: energies that go from state to
+/// state are the more exact for them.
+struct StepPath {
+  const State& before;
+  const State& after;
+  std::span<const State> within = {};
+};
 
 /// The books of a run's energy [J]: what it has lost and what has come from outside since its start.
 class EnergyAccount {
@@ -26,10 +35,10 @@ class EnergyAccount {
   void take_in(double energy) { input_ += energy; }
   /// Books what a step loses and takes in; `first` after a restart, whose accelerations are not those of the
   /// moment.
-  void add_step(const BeamSystem& system, const State& before, const State& after, bool first);
+  void add_step(const BeamSystem& system, const StepPath& step, bool first);
   /// Whether a step makes more energy than error control leaves: a part of the kinetic and strain energy, or
   /// of what gravity gave. Asked of one step after the other.
-  bool creates_energy(const BeamSystem& system, const State& before, const State& after, bool first,
+  bool creates_energy(const BeamSystem& system, const StepPath& step, bool first,
                       const SimulationReport& report);
 
   /// Writes the books into a snapshot, whose total energy has been the mechanical one.

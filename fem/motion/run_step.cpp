@@ -1,6 +1,8 @@
 #include "fem/motion/run_step.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <utility>
 
 #include "fem/forces/memory.h"
@@ -20,9 +22,8 @@ StepReport step_keeping_energy(Run& run, const IntegratorHistory& history, doubl
   const State& before = run.at.state;
   StepReport taken = run.integrator->advance(step);
   for (int i = 0; taken.status == StepStatus::converged && !run.options.step; ++i) {
-    if (!run.account.creates_energy(*run.at.system, before, run.integrator->state(), run.restarted,
-                                    run.report))
-      break;
+    const StepPath path{before, run.integrator->state(), run.integrator->within()};
+    if (!run.account.creates_energy(*run.at.system, path, run.restarted, run.report)) break;
     const StepReport refused = taken;
     run.integrator->restore(before, history);
     if (i < most_halvings)
@@ -193,6 +194,13 @@ std::function<double(const BeamSystem&, const State&)> distance_to(const BeamMod
   return {};
 }
 
+// Those of the step that has led to the present state, or to an instant before it.
+std::span<const State> states_within(const Run& run, double length) {
+  constexpr double instant = 1e-5;  // of the step
+  const bool led_here = std::abs(run.at.state.t - run.integrator->state().t) <= instant * length;
+  return led_here ? run.integrator->within() : std::span<const State>();
+}
+
 // Whether a step was shortened without having failed: by the places of nodes that move (step_limit).
 void note_cut(Run& run, double asked, const StepReport& taken) {
   if (!run.options.step || taken.rejected > 0 || taken.step > asked * (1 - 1e-9)) return;
@@ -249,7 +257,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   run.last_record = {at.state.t, length, static_cast<int>(run.report.newton_iterations - iterations),
                      taken.rejected};
   run.steps.push_back(run.last_record);
-  run.account.add_step(*at.system, before, at.state, first);
+  run.account.add_step(*at.system, {before, at.state, states_within(run, length)}, first);
   return pass(run, landing, before);
 }
 

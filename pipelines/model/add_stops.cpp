@@ -189,7 +189,7 @@ void add_stops(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
       findings.error("analysis.integrator.type",
                      "is \"ida\", but " + stop.path +
                          " is a stop, whose impacts \"ida\" has no memory for; use "
-                         "\"generalized-alpha\"");
+                         "\"generalized-alpha\" or \"radau\"");
     check_modes(stop, analysis, findings);
   }
   check_room(model, findings);

@@ -129,7 +129,7 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
       findings.error("analysis.integrator.type",
                      "is \"ida\", but " + from.path +
                          " carries one sign with a damper, and \"ida\" has no memory for when it is taut; "
-                         "leave \"damping\" out, or use \"generalized-alpha\"");
+                         "leave \"damping\" out, or use \"generalized-alpha\" or \"radau\"");
     for (const int end : {0, 1}) add_mass(from.end_masses[end], connector.ends[end], model);
     model.connectors.push_back(std::move(connector));
   }

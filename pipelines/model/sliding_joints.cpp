@@ -102,7 +102,8 @@ void check_friction(const CaseSlidingJoint& joint, const CaseAnalysis& analysis,
   if (analysis.type == CaseAnalysis::Type::dynamic && std::holds_alternative<Ida>(analysis.integrator))
     findings.error("analysis.integrator.type",
                    "is \"ida\", but " + joint.path +
-                       " has friction, which \"ida\" has no memory for; use \"generalized-alpha\"");
+                       " has friction, which \"ida\" has no memory for; use \"generalized-alpha\" or "
+                       "\"radau\"");
   if (analysis.has_modes()) findings.warn(joint.path + ".friction", "has no effect on modes and buckling");
 }
 
