@@ -95,7 +95,8 @@ class SecondOrderSystem {
   /// Whether dF/da is the same in all states, and dF/dv none: nothing moves over material, nothing damps.
   virtual bool has_constant_inertia() const { return false; }
 
-  /// Longest step allowed from this state [s], for one evaluation at its end; stages follow half as much more.
+  /// Longest step allowed from this state [s], for one evaluation at its end; stages follow half as much
+  /// more.
   virtual double step_limit(const State&) const { return std::numeric_limits<double>::infinity(); }
   /// Whether the configuration means anything (no element turned inside out); an integrator shortens its step
   /// rather than accept an inadmissible state.

@@ -43,8 +43,8 @@ class Simulation {
 /// that leave or stop at a beam's end. A static analysis has a snapshot at rest under the loads of each
 /// output time, followed from one to the next; where there is none, of time 0. Sliding bodies come to rest.
 /// With `from`, which must belong to the same model and options, a motion goes on from there: with
-/// generalized-alpha, Radau and the explicit methods bit by bit as if it had never been interrupted; IDA starts
-/// afresh with a short step. All is in the model's own coordinates.
+/// generalized-alpha, Radau and the explicit methods bit by bit as if it had never been interrupted; IDA
+/// starts afresh with a short step. All is in the model's own coordinates.
 SimulationReport simulate(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer,
                           const Checkpoint* from = nullptr);
