@@ -1,6 +1,5 @@
 #include "solver/stage_equations.h"
 
-#include <Eigen/KLUSupport>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,21 +19,6 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-class StageEquations::ComplexSolver {
- public:
-  bool factorise(const Eigen::SparseMatrix<Complex>& matrix) {
-    if (!analysed_) klu_.analyzePattern(matrix);
-    analysed_ = true;
-    klu_.factorize(matrix);
-    return klu_.info() == Eigen::Success;
-  }
-  Eigen::VectorXcd solve(const Eigen::VectorXcd& rhs) { return klu_.solve(rhs); }
-
- private:
-  Eigen::KLU<Eigen::SparseMatrix<Complex>> klu_;
-  bool analysed_ = false;
-};
-
 StageEquations::StageEquations(const SecondOrderSystem& system, const State& start)
     : system_(&system),
       n_(system.coordinate_count()),
@@ -44,18 +28,13 @@ StageEquations::StageEquations(const SecondOrderSystem& system, const State& sta
       damping_(mass_),
       stiffness_(mass_),
       real_(mass_),
-      complex_(mass_.cast<Complex>()),
-      complex_solver_(std::make_unique<ComplexSolver>()) {
+      complex_(mass_.cast<Complex>()) {
   mass_scale_ = nurbeam::mass_scale(system, start, real_);
   const int *starts = real_.outerIndexPtr(), *rows = real_.innerIndexPtr();
   for (int column = 0; column < real_.cols(); ++column)
     for (int k = starts[column]; k < starts[column + 1]; ++k)
       if (column >= n_ || rows[k] >= n_) of_constraints_.push_back(k);
 }
-
-StageEquations::~StageEquations() = default;
-StageEquations::StageEquations(StageEquations&&) noexcept = default;
-StageEquations& StageEquations::operator=(StageEquations&&) noexcept = default;
 
 bool StageEquations::linearise(const State& place, double h, double tolerance) {
   h_ = h;
@@ -72,7 +51,10 @@ bool StageEquations::linearise(const State& place, double h, double tolerance) {
     complex_.valuePtr()[k] = real_.valuePtr()[k] = stiffness_.valuePtr()[k];
     damping_.valuePtr()[k] = mass_.valuePtr()[k] = 0;
   }
-  if (!all_finite(real_.coeffs()) || !real_solver_.factorise(real_) || !complex_solver_->factorise(complex_))
+  if (!is_analysed_) is_regular_ = complex_solver_.analyse(complex_);
+  is_analysed_ = true;
+  if (!is_regular_ || !all_finite(real_.coeffs()) || !real_solver_.factorise(real_) ||
+      !(complex_solver_.factorise(complex_) > 0))
     return false;
   State still = place;
   measure_balance(*system_, place, real_.valuePtr(), {g * g, mass_scale_, tolerance}, inverse_scale_, still,
@@ -101,7 +83,7 @@ double StageEquations::solve(const Residuals& residuals, std::array<StageCorrect
   // The residuals are scaled for the real system.
   x.complex.head(n_) *= std::pow(method.gamma_c / method.gamma, 2);
   real_solver_.solve(x.real, x.real);
-  x.complex = complex_solver_->solve(x.complex);
+  x.complex = complex_solver_.solve(x.complex);
   update(x);
   if (!all_finite(x.real) || !all_finite(x.complex.real()) || !all_finite(x.complex.imag()))
     return not_a_number;

@@ -2,12 +2,13 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
-#include <memory>
+#include <complex>
 #include <vector>
 
 #include "solver/kkt_solver.h"
 #include "solver/radau_method.h"
 #include "solver/second_order_system.h"
+#include "solver/sparse_lu.h"
 
 namespace nurbeam {
 
@@ -30,9 +31,6 @@ class StageEquations {
 
   /// `system` must outlive it.
   StageEquations(const SecondOrderSystem& system, const State& start);
-  ~StageEquations();
-  StageEquations(StageEquations&&) noexcept;
-  StageEquations& operator=(StageEquations&&) noexcept;
 
   /// What the dynamic rows are divided by (mass_scale.h): of the start, or of another one.
   double mass_scale() const { return mass_scale_; }
@@ -57,7 +55,6 @@ class StageEquations {
     Eigen::VectorXd real;
     Eigen::VectorXcd complex;
   };
-  class ComplexSolver;
 
   double product(const Diagonal& x, const Diagonal& y) const;
   void update(Diagonal& correction);
@@ -72,8 +69,9 @@ class StageEquations {
   Eigen::SparseMatrix<double> mass_, damping_, stiffness_, real_;
   Eigen::SparseMatrix<std::complex<double>> complex_;
   KktSolver real_solver_;
-  std::unique_ptr<ComplexSolver> complex_solver_;
-  std::vector<Diagonal> before_;  // corrections since the matrices were taken
+  SparseLu<std::complex<double>> complex_solver_;
+  bool is_analysed_ = false, is_regular_ = false;  // the pattern of the complex matrix
+  std::vector<Diagonal> before_;                   // corrections since the matrices were taken
 };
 
 }  // namespace nurbeam

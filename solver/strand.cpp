@@ -1,6 +1,5 @@
 #include "solver/strand.h"
 
-#include <Eigen/KLUSupport>
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -24,15 +23,6 @@ BandOrder in_best_order(BandOrder order) {
 }
 
 }  // namespace
-
-/// KLU's own estimate of the reciprocal condition, smallest over largest pivot of the row-scaled factors.
-class Strand::Klu : public Eigen::KLU<Eigen::SparseMatrix<double>> {
- public:
-  double reciprocal_condition() {
-    klu_rcond(m_symbolic, m_numeric, &m_common);
-    return m_common.rcond;
-  }
-};
 
 StrandOrder::StrandOrder(const SparseView& matrix, BandOrder of, const std::vector<int>& in_part)
     : band(std::make_shared<const BandOrder>(in_best_order(std::move(of)))) {
@@ -67,10 +57,9 @@ Strand::Strand(std::shared_ptr<const StrandOrder> order, const SparseView& matri
     return;
   }
   y_.assign(band().unknown.size(), 0);
-  klu_ = std::make_unique<Klu>();
+  sparse_lu_ = std::make_unique<SparseLu<double>>();
   extract(matrix);
-  klu_->analyzePattern(matrix_);
-  is_structurally_regular_ = klu_->info() == Eigen::Success;
+  is_structurally_regular_ = sparse_lu_->analyse(matrix_);
 }
 
 Strand::~Strand() = default;
@@ -93,13 +82,12 @@ double Strand::factors(const SparseView& matrix) {
   if (is_banded_) return lu_.factorise(matrix);
   if (!is_structurally_regular_) return 0;
   extract(matrix);
-  klu_->factorize(matrix_);
-  return klu_->info() == Eigen::Success ? klu_->reciprocal_condition() : 0;
+  return sparse_lu_->factorise(matrix_);
 }
 
 void Strand::solve_whole(BandedLu::Places& y) const {
   Eigen::Map<Eigen::VectorXd>(y.data(), size()) =
-      klu_->solve(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(y.data(), size())));
+      sparse_lu_->solve(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(y.data(), size())));
 }
 
 bool Strand::factorise(const SparseView& matrix, std::size_t part) {

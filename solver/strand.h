@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/banded_lu.h"
+#include "solver/sparse_lu.h"
 
 namespace nurbeam {
 
@@ -66,8 +67,7 @@ class Strand {
   std::shared_ptr<const StrandOrder> order_;
   bool is_banded_ = false, is_structurally_regular_ = true;
   BandedLu lu_;
-  class Klu;
-  std::unique_ptr<Klu> klu_;
+  std::unique_ptr<SparseLu<double>> sparse_lu_;
   Eigen::SparseMatrix<double> matrix_;  // that KLU takes
   std::vector<Piece> into_, out_of_;    // V by columns, W by rows
   BandedLu::Places y_;

@@ -30,7 +30,7 @@ set(homes
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(occt|iges|step|program)/.*"
   "tbb/.*"                                                                        "solver/side_by_side\\.cpp"
   "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
-  "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/strand\\.cpp"
+  "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/sparse_lu\\.cpp"
   "Spectra/.*"                                                                    "solver/eigenpairs\\.cpp"
   "pybind11/.*"                                                                   "python/.*"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/model_digest\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h)"
