@@ -10,6 +10,7 @@
 
 #include "solver/equilibrated_kkt.h"
 #include "solver/kkt_solver.h"
+#include "solver/without_symmetry.h"
 
 namespace nurbeam {
 
@@ -25,11 +26,6 @@ constexpr double zero_eigenvalue = 5e-13;
 /// drown the soft ones in round-off. Where that makes too soft what they forbid, less, of which more is
 /// round-off.
 constexpr double first_regularisation = 1e-2, least_regularisation = 1e-8, finer = 1e-3;
-
-Vector without_symmetry(int n) {
-  return Vector::NullaryExpr(
-      n, [](Eigen::Index i) { return 1 + 0.5 * std::sin(12.9898 * static_cast<double>(i + 1)); });
-}
 
 /// In the coordinates before they were multiplied by `factor`, of unit length, the largest component
 /// positive.

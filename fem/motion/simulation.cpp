@@ -166,6 +166,16 @@ struct Simulation::Implementation {
     if (found) take_snapshot();
     ++next_output_;
     phase_ = found && next_output_ < times.size() ? Phase::rest : Phase::ended;
+    if (found && phase_ == Phase::ended) see_what_is_loose();
+  }
+
+  // Whether the last rest is one of many.
+  void see_what_is_loose() {
+    try {
+      run_.report.loose = find_loose_part(run_.at, run_.observer.interrupted);
+    } catch (const Interruption&) {
+      run_.report.status = SimulationStatus::interrupted;
+    }
   }
 
   // At the first of the output times, with the lengths of connectors that the whole loads ask for: the same

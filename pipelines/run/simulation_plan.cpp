@@ -110,6 +110,25 @@ std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const 
           "goes from there"};
 }
 
+std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, const SimulationReport& run,
+                                            const ModelFrame& frame) {
+  if (!run.loose) return {};
+  const LoosePart& loose = *run.loose;
+  constexpr int digits = 3;
+  const auto component = [](double value) { return text_of(std::abs(value) < 1e-3 ? 0 : value, digits); };
+  const Eigen::Vector3d direction = frame.direction_to_world(loose.direction);
+  return Diagnostic{
+      Severity::warning, file.string() + ": supports",
+      "nothing resists a motion of the model in which " +
+          (loose.is_body
+               ? "body \"" + loose.name + "\" moves furthest"
+               : "beam \"" + loose.name + "\" moves furthest, at s = " + text_of(loose.s, 6) + " m") +
+          ", along [" + component(direction[0]) + ", " + component(direction[1]) + ", " +
+          component(direction[2]) +
+          "]: the equilibrium that was found is one of many; hold what moves, or leave it to a load or to "
+          "gravity"};
+}
+
 std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {
   const double noticed = std::max(0.05 * run.energy_scale(), run.energy_round_off());
   const bool between_events = run.integration_error > noticed;

@@ -36,6 +36,10 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
 /// A warning where loads have led past the end of a branch of equilibria; `file` heads it.
 std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run);
 
+/// A warning where a model at rest is a mechanism; `file` heads it, `frame` is that of the model.
+std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, const SimulationReport& run,
+                                            const ModelFrame& frame);
+
 /// A warning where energy comes from nowhere or is lost.
 std::optional<Diagnostic> energy_warning(const CaseFile& case_file, const SimulationReport& run);
 

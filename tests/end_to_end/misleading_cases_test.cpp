@@ -369,6 +369,40 @@ TEST(MisleadingCases, WhatIsNotHeldIsNotACable) {
   EXPECT_FALSE(run.says("discontinuous")) << run.messages;
 }
 
+// Nothing tells how far it is turned, or where a body is on a level guide.
+TEST(MisleadingCases, AMechanismIsSaidToBeOneAtRest) {
+  const auto resting = [](const std::string& gravity, const std::string& supports, const std::string& more) {
+    return run_misleading_text(
+        R"({ "nurbeam": 1, "gravity": )" + gravity +
+        R"(, "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.01 },
+             "material": { "density": 7800, "youngs_modulus": 2e11 }, "elements": { "count": 300 } }],
+         "supports": [{ "beam": "b", "at": "start", )" +
+        supports + "], " + more + R"( "analysis": { "type": "static" }, "output": { "report": false } })");
+  };
+  const std::string none = "[0, 0, 0]", weight = "[0, -9.81, 0]", pinned = R"("type": "pinned" })",
+                    clamped = R"("type": "clamped" })",
+                    both = clamped + R"(, { "beam": "b", "at": "end", "type": "clamped" })";
+  const std::string body = R"("bodies": [{ "name": "m", "mass": 1 }],
+      "sliding_joints": [{ "body": "m", "beam": "b", "at": { "fraction": 0.4 } }],)";
+  const std::string told = "nothing resists a motion";
+
+  const CaseRun turns = resting(none, pinned, ""), slides = resting(none, both, body);
+  ASSERT_EQ(turns.code, 0) << turns.messages;
+  ASSERT_EQ(slides.code, 0) << slides.messages;
+  EXPECT_TRUE(
+      turns.says(told + " of the model in which beam \"b\" moves furthest, at s = 1 m, along [0, 1, 0]"))
+      << turns.messages;
+  EXPECT_TRUE(slides.says(told + " of the model in which body \"m\" moves furthest, along [1, 0, 0]"))
+      << slides.messages;
+
+  const std::string pulled = R"("loads": [{ "beam": "b", "at": "end", "force": [10, 0, 0] }],)";
+  for (const CaseRun& held : {resting(none, clamped, ""), resting(weight, clamped, ""),
+                              resting(weight, both, body), resting(none, pinned, pulled)}) {
+    ASSERT_EQ(held.code, 0) << held.messages;
+    EXPECT_FALSE(held.says(told)) << held.messages;
+  }
+}
+
 // Nothing holds it back, so hardly any energy is there for an error to be small beside.
 TEST(MisleadingCases, ABarThatExpandsFreelyIsNotWarnedOf) {
   const CaseRun run = run_misleading_text(R"({

@@ -1,0 +1,13 @@
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+
+namespace nurbeam {
+
+/// (n) A vector that no symmetry makes orthogonal to what is looked for: where iterations start.
+inline Eigen::VectorXd without_symmetry(int n) {
+  return Eigen::VectorXd::NullaryExpr(
+      n, [](Eigen::Index i) { return 1 + 0.5 * std::sin(12.9898 * static_cast<double>(i + 1)); });
+}
+
+}  // namespace nurbeam
