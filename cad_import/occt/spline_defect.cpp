@@ -7,6 +7,7 @@
 #include <TColStd_HArray1OfReal.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Pnt.hxx>
 #include <vector>
 
 #include "nurbs/number_text.h"
@@ -55,13 +56,31 @@ std::optional<std::string> step_defect(const std::vector<double>& knots,
   return defect ? defect : weights_defect(weights);
 }
 
+/// That the curve is in two pieces inside, which OpenCASCADE makes one of, without a control point.
+std::optional<std::string> gap_defect(const std::vector<double>& knots, const IGESGeom_BSplineCurve& curve) {
+  const int degree = curve.Degree(), poles = curve.NbPoles();
+  constexpr double together = 1e-9;  // of the curve's size
+  double size = 0;
+  for (int i = 1; i < poles; ++i) size = std::max(size, curve.Pole(i).Distance(curve.Pole(0)));
+  for (int i = 1; i + degree < static_cast<int>(knots.size()) - 1; ++i) {
+    if (knots[i] != knots[i + degree] || knots[i] == knots.front() || knots[i] == knots.back()) continue;
+    if (i < poles && curve.Pole(i - 1).Distance(curve.Pole(i)) <= together * size) continue;
+    return "its knot " + text_of(knots[i]) + " stands " + std::to_string(degree + 1) + " times; at most " +
+           std::to_string(degree) +
+           " are allowed there, as the curve is in two pieces otherwise: write them as two "
+           "curves";
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> iges_defect(const IGESGeom_BSplineCurve& curve) {
   std::vector<double> knots;
   for (int i = 0; i < curve.NbKnots(); ++i) knots.push_back(curve.Knot(i - curve.Degree()));
   std::vector<double> weights;
   for (int i = 0; i < curve.NbPoles(); ++i) weights.push_back(curve.Weight(i));
-  const std::optional<std::string> defect = knots_defect(knots);
-  return defect ? defect : weights_defect(weights);
+  if (const auto defect = knots_defect(knots)) return defect;
+  if (const auto defect = weights_defect(weights)) return defect;
+  return gap_defect(knots, curve);
 }
 
 }  // namespace

@@ -14,17 +14,22 @@ Eigen::Affine3d stand_in(const Eigen::Affine3d& place) {
   Eigen::Affine3d rigid = place;
   rigid.linear().colwise().normalize();
   if (rigid.linear().determinant() < 0) rigid.linear().col(2) *= -1;
-  if (rigid.isApprox(Eigen::Affine3d::Identity())) rigid.translation().x() += 1;
+  if ((rigid * rigid).isApprox(Eigen::Affine3d::Identity())) rigid.translation() += Eigen::Vector3d(1, 2, 3);
   return rigid;
 }
 
 bool is_rigid(const Eigen::Affine3d& place) { return std::abs(place.linear().determinant() - 1) <= 1e-12; }
 
-void TruePlaces::add(const TopLoc_Location& location, const std::optional<Eigen::Affine3d>& place) {
+void TruePlaces::add(const TopLoc_Location& location, const std::optional<Eigen::Affine3d>& place,
+                     const std::optional<Eigen::Affine3d>& stand_in) {
   if (location.IsIdentity()) return;
   TopLoc_Location last = location;
   while (!last.NextLocation().IsIdentity()) last = last.NextLocation();
-  places_[last.FirstDatum().get()] = {last.FirstDatum(), place};
+  const Eigen::Affine3d found = in_metres(last.FirstDatum()->Transformation(), metres_per_millimetre);
+  const bool inverted =
+      stand_in && !found.isApprox(*stand_in, 1e-9) && found.isApprox(stand_in->inverse(), 1e-9);
+  places_[last.FirstDatum().get()] = {last.FirstDatum(),
+                                      inverted && place ? std::optional(place->inverse()) : place};
 }
 
 bool TruePlaces::concern(const TopLoc_Location& location) const {

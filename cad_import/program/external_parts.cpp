@@ -72,10 +72,11 @@ std::optional<std::string> add_part(const Handle(StepBasic_ProductDefinition) & 
 
 }  // namespace
 
-void add_external_parts(const XSControl_Reader& reader, const ReadFile& read, ImportReport& report) {
+void add_external_parts(const XSControl_Reader& reader, const RestatedCurves& restated, const ReadFile& read,
+                        ImportReport& report) {
   STEPConstruct_ExternRefs files(reader.WS());
   if (!files.LoadExternRefs()) return;
-  const PartPlaces assembly(reader);
+  const PartPlaces assembly(reader, true_places(reader, restated));
   for (int i = 1; i <= files.NbExternRefs(); ++i) {
     const std::string file = as_utf8(files.FileName(i)), part = product_name(files.ProdDef(i));
     if (const auto reason = add_part(files.ProdDef(i), file, assembly, read, report))

@@ -18,6 +18,7 @@
 #include <StepGeom_TrimmedCurve.hxx>
 #include <StepRepr_MappedItem.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
+#include <StepRepr_RepresentationRelationshipWithTransformation.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_GeometricSet.hxx>
 #include <StepShape_PolyLoop.hxx>
@@ -140,7 +141,8 @@ bool has_one_part(const Interface_InterfaceModel& model) {
   if (length_units_of(model).size() > 1) return false;
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (model.Value(i)->IsKind(STANDARD_TYPE(StepRepr_NextAssemblyUsageOccurrence)) ||
-        model.Value(i)->IsKind(STANDARD_TYPE(StepRepr_MappedItem)))
+        model.Value(i)->IsKind(STANDARD_TYPE(StepRepr_MappedItem)) ||
+        model.Value(i)->IsKind(STANDARD_TYPE(StepRepr_RepresentationRelationshipWithTransformation)))
       return false;
   return true;
 }
@@ -239,8 +241,8 @@ std::string only_part(const Interface_InterfaceModel& model) {
 
 class Whole {
  public:
-  Whole(const XSControl_Reader& reader, double unit)
-      : reader_(reader), unit_(unit), is_one_part_(has_one_part(*reader.Model())) {
+  Whole(const XSControl_Reader& reader, const RestatedCurves& restated, double unit)
+      : reader_(reader), restated_(restated), unit_(unit), is_one_part_(has_one_part(*reader.Model())) {
     const std::string part = only_part(*reader.Model());
     if (is_one_part_) own_ = {{gp_Trsf(), {part, part}}};
   }
@@ -251,12 +253,13 @@ class Whole {
     const std::optional<double> unit = holder ? length_unit_of(holder->context) : std::nullopt;
     if (!unit) return {};
     use_units_of(holder->context);
-    if (!parts_) parts_.emplace(reader_);
+    if (!parts_) parts_.emplace(reader_, true_places(reader_, restated_));
     return {parts_->of(holder->part), *unit};
   }
 
  private:
   const XSControl_Reader& reader_;
+  const RestatedCurves& restated_;
   double unit_;
   bool is_one_part_;
   std::vector<PartPlace> own_;
@@ -268,7 +271,7 @@ class Whole {
 LostCurves add_lost_curves(const XSControl_Reader& reader, const RestatedCurves& restated, double tolerance,
                            ImportReport& report) {
   const Interface_InterfaceModel& model = *reader.Model();
-  Whole whole(reader, report.unit_in_metres);
+  Whole whole(reader, restated, report.unit_in_metres);
   int named = 0;
   LostCurves found;
   for (const Entity& entity : lost_curves(reader, restated)) {

@@ -14,6 +14,7 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <unordered_set>
+#include <utility>
 
 namespace nurbeam {
 namespace {
@@ -88,8 +89,10 @@ std::vector<Part> parts_of(const Entity& representation, const Interface_Graph& 
 
 }  // namespace
 
-PartPlaces::PartPlaces(const XSControl_Reader& reader)
-    : process_(reader.WS()->TransferReader()->TransientProcess()), whole_(reader.OneShape()) {
+PartPlaces::PartPlaces(const XSControl_Reader& reader, TruePlaces true_places)
+    : process_(reader.WS()->TransferReader()->TransientProcess()),
+      true_places_(std::move(true_places)),
+      whole_(reader.OneShape()) {
   if (!whole_.IsNull()) names_ = part_names(reader, whole_);
 }
 
@@ -102,6 +105,8 @@ std::vector<PartPlace> PartPlaces::of(const Part& part) const {
   std::vector<TopoDS_Shape> found;
   if (!whole_.IsNull() && !shape.IsNull()) find_places(shape, whole_, found);
   std::vector<PartPlace> places;
+  for (const TopoDS_Shape& place : found)
+    if (true_places_.concern(place.Location())) return {};
   for (const TopoDS_Shape& place : found)
     places.push_back(
         {place.Location().Transformation(), names_.IsBound(place) ? names_.Find(place) : PartName{}});

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "cad_import/occt/true_places.h"
 #include "cad_import/program/part_names.h"
 
 namespace nurbeam {
@@ -20,16 +21,18 @@ struct PartPlace {
 /// The parts of a STEP file that OpenCASCADE has translated.
 class PartPlaces {
  public:
-  explicit PartPlaces(const XSControl_Reader& reader);
+  PartPlaces(const XSControl_Reader& reader, TruePlaces true_places);
 
   /// The shape of a part; null where none was made.
   TopoDS_Shape shape_of(const opencascade::handle<StepBasic_ProductDefinition>& part) const;
 
-  /// Where the whole has a part, in its order; none where it has it nowhere.
+  /// Where the whole has a part, in its order; none where it has it nowhere, or where one place scales or
+  /// mirrors it.
   std::vector<PartPlace> of(const opencascade::handle<StepBasic_ProductDefinition>& part) const;
 
  private:
   opencascade::handle<Transfer_TransientProcess> process_;
+  TruePlaces true_places_;
   TopoDS_Shape whole_;
   PartNames names_;
 };

@@ -84,14 +84,16 @@ void add_failures(const Interface_CheckIterator& checks, const Interface_Interfa
   }
 }
 
-void transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
-  const RestatedCurves restated = restate_curves(reader, report);
+// Returns what was said anew for it.
+RestatedCurves transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
+  RestatedCurves restated = restate_curves(reader, report);
   reader.TransferRoots();
   LostCurves lost = add_curves(reader, restated, tolerance, report);
   lost.named.insert(restated.refused.begin(), restated.refused.end());
   const Handle(XSControl_WorkSession) session = reader.WS();
   add_failures(session->TransferReader()->TransientProcess()->CheckList(Standard_True), *reader.Model(), lost,
                report);
+  return restated;
 }
 
 void read(XSControl_Reader& reader, const std::string& content, ImportReport& report) {
@@ -136,8 +138,8 @@ void read_step(const std::string& content, double tolerance, const ReadFile& rea
   restate_units(*reader.Model());
   report_step_unit(*reader.Model(), report);
   join_supplemental_geometry(reader);
-  transfer(reader, tolerance, report);
-  add_external_parts(reader, read_other, report);
+  const RestatedCurves restated = transfer(reader, tolerance, report);
+  add_external_parts(reader, restated, read_other, report);
   note_hidden(report);
 }
 
@@ -198,18 +200,18 @@ void read_brep(const std::string& content, double tolerance, ImportReport& repor
 
 // Why there is no curve: what was said of the entities of the file.
 std::string without_curves(const ImportReport& report) {
-  std::string reason;
-  int others = -1;
+  constexpr int most_named = 3;
+  std::string reasons;
+  int count = 0;
   for (const auto& [severity, where, message] : report.diagnostics) {
     const std::size_t file = report.file.size() + 2;  // "file: entity"
-    if (severity != Severity::warning || where.size() <= file) continue;
-    if (reason.empty()) reason = where.substr(file) + ": " + message;
-    ++others;
+    if (severity != Severity::warning || where.size() <= file || ++count > most_named) continue;
+    reasons += "; " + where.substr(file) + ": " + message;
   }
-  if (reason.empty())
+  if (reasons.empty())
     return "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)";
-  return "no curve of the file can be read; " + reason +
-         (others > 0 ? " (and " + std::to_string(others) + " more warning(s))" : "");
+  return "no curve of the file can be read" + reasons +
+         (count > most_named ? " (and " + std::to_string(count - most_named) + " more warning(s))" : "");
 }
 
 void read_format(const std::string& content, CadFormat format, double tolerance, const ReadFile& read_other,

@@ -9,6 +9,8 @@
 #include <IGESGeom_Line.hxx>
 #include <IGESGeom_OffsetCurve.hxx>
 #include <IGESGeom_SurfaceOfRevolution.hxx>
+#include <Interface_EntityIterator.hxx>
+#include <Interface_Graph.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
@@ -18,7 +20,10 @@
 #include <StepGeom_OffsetCurve3d.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
 #include <StepRepr_MappedItem.hxx>
+#include <StepRepr_ProductDefinitionShape.hxx>
 #include <StepRepr_RepresentationMap.hxx>
+#include <StepRepr_RepresentationRelationshipWithTransformation.hxx>
+#include <StepShape_ContextDependentShapeRepresentation.hxx>
 #include <StepShape_ShapeRepresentation.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TransferBRep.hxx>
@@ -42,8 +47,10 @@
 #include "cad_import/program/part_places.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/axis_placement.h"
+#include "cad_import/step/between_placements.h"
 #include "cad_import/step/closed_spline.h"
 #include "cad_import/step/curve_replica.h"
+#include "cad_import/step/nested_piece.h"
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/transformation_operator.h"
 #include "cad_import/step/trimmed_conic.h"
@@ -133,7 +140,7 @@ RestatedPlace restate_scaled(const Handle(IGESBasic_SingularSubfigure) & instanc
   const bool is_read = remarks.attempt(instance, [&] { place = place_of(*instance); });
   set_place(*instance, stand_in(place));
   place.translation() *= unit * metres_per_millimetre;
-  return {Entity(instance), is_read ? std::optional(place) : std::nullopt};
+  return {Entity(instance), is_read ? std::optional(place) : std::nullopt, std::nullopt};
 }
 
 std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, double unit, Remarks& remarks) {
@@ -210,12 +217,27 @@ bool is_between_axes(const StepRepr_MappedItem& item) {
          !Handle(StepGeom_Axis2Placement3d)::DownCast(item.MappingTarget()).IsNull();
 }
 
-const StepGeom_CartesianTransformationOperator3d& operator_of(const StepRepr_MappedItem& item) {
-  const auto known = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(item.MappingTarget());
+using Operator = Handle(StepGeom_CartesianTransformationOperator3d);
+
+Operator operator_of(const StepRepr_MappedItem& item) {
+  const auto known = Operator::DownCast(item.MappingTarget());
   if (known.IsNull())
     throw std::runtime_error(
         "its target is neither AXIS2_PLACEMENT_3D nor CARTESIAN_TRANSFORMATION_OPERATOR_3D; place it by one");
-  return *known;
+  return known;
+}
+
+/// What has the shape of a part where a relation puts it.
+std::vector<Entity> placed_by(const Entity& relation, const Interface_Graph& graph) {
+  std::vector<Entity> placed;
+  for (Interface_EntityIterator next = graph.Sharings(relation); next.More(); next.Next()) {
+    const auto representation = Handle(StepShape_ContextDependentShapeRepresentation)::DownCast(next.Value());
+    if (representation.IsNull()) continue;
+    placed.push_back(representation);
+    const Handle(StepRepr_ProductDefinitionShape) shape = representation->RepresentedProductRelation();
+    if (!shape.IsNull()) placed.push_back(shape->Definition().Value());
+  }
+  return placed;
 }
 
 /// Before the curves, which are placed by them.
@@ -248,10 +270,16 @@ class StepCurves {
         restate_replica(*replica);
       });
     } else if (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(entity)) {
+      const Entity basis = trimmed->BasisCurve();
+      if (!remarks_.attempt(entity, [&] { restate_nested(*trimmed); })) return;
+      if (basis != Entity(trimmed->BasisCurve())) parents_.insert(basis.get());
       restate(trimmed->BasisCurve());
       restate_piece(trimmed);
     } else if (const auto item = Handle(StepRepr_MappedItem)::DownCast(entity)) {
       restate_mapped(item);
+    } else if (const auto relation =
+                   Handle(StepRepr_RepresentationRelationshipWithTransformation)::DownCast(entity)) {
+      restate_relation(relation);
     }
   }
 
@@ -259,26 +287,63 @@ class StepCurves {
   const std::vector<RestatedPlace>& places() const { return places_; }
 
  private:
-  /// OpenCASCADE leaves out the scale, turns where the operator mirrors, and knows no axes but given ones.
   void restate_mapped(const Handle(StepRepr_MappedItem) & item) {
-    if (!places_a_shape(*item) || is_between_axes(*item)) return;
+    if (!places_a_shape(*item)) return;
+    if (is_between_axes(*item)) {
+      remarks_.attempt(item, [&] { restate_between_axes(*item); });
+      return;
+    }
+    const auto restated = restate_operator(item, [&] { return operator_of(*item); });
+    if (!restated) return;
+    item->SetMappingTarget(restated->read);
+    if (restated->scales) places_.push_back({Entity(item), restated->place, std::nullopt});
+  }
+
+  /// A part in an assembly.
+  void restate_relation(const Handle(StepRepr_RepresentationRelationshipWithTransformation) & relation) {
+    const auto known = Operator::DownCast(relation->TransformationOperator().Value());
+    if (known.IsNull()) {
+      remarks_.attempt(relation, [&] { restate_between_axes(*relation); });
+      return;
+    }
+    const auto restated = restate_operator(relation, [&] { return known; });
+    if (!restated) return;
+    StepRepr_Transformation transformation;
+    transformation.SetValue(restated->read);
+    relation->SetTransformationOperator(transformation);
+    if (!restated->scales) return;
+    for (const Entity& placed : placed_by(relation, graph_))
+      places_.push_back({placed, restated->place, restated->stand_in});
+  }
+
+  /// An operator as OpenCASCADE is to read it.
+  struct RestatedOperator {
+    Operator read;
+    bool scales;                           // or mirrors, or cannot be
+    std::optional<Eigen::Affine3d> place;  // [m], as RestatedPlace has it
+    Eigen::Affine3d stand_in;              // [m]
+  };
+
+  /// OpenCASCADE leaves out the scale, turns where the operator mirrors, and knows no axes but given ones.
+  /// Nothing where it reads what `given` returns as it is meant.
+  std::optional<RestatedOperator> restate_operator(const Entity& entity,
+                                                   const std::function<Operator()>& given) {
     Eigen::Affine3d place = Eigen::Affine3d::Identity();
     double unit = 1;  // [mm]
     bool is_right = false;
-    const bool is_read = remarks_.attempt(item, [&] {
-      is_right = is_location(operator_of(*item));
+    const bool is_read = remarks_.attempt(entity, [&] {
+      is_right = is_location(*given());
       if (is_right) return;
-      unit = use_unit(item);
-      place = place_of(operator_of(*item));
+      unit = use_unit(entity);
+      place = place_of(*given());
     });
-    if (is_right) return;
+    if (is_right) return std::nullopt;
     const bool only_axes_lack = is_read && is_rigid(place);
-    Eigen::Affine3d in_file = only_axes_lack ? place : stand_in(place);
+    Eigen::Affine3d in_file = only_axes_lack ? place : stand_in(place), read = in_file;
     in_file.translation() /= unit;
-    item->SetMappingTarget(transformation_operator(in_file));
-    if (only_axes_lack) return;
-    place.translation() *= metres_per_millimetre;
-    places_.push_back({Entity(item), is_read ? std::optional(place) : std::nullopt});
+    for (Eigen::Affine3d* metric : {&place, &read}) metric->translation() *= metres_per_millimetre;
+    return RestatedOperator{transformation_operator(in_file), !only_axes_lack,
+                            is_read ? std::optional(place) : std::nullopt, read};
   }
 
   void restate_piece(const Handle(StepGeom_TrimmedCurve) & trimmed) {
@@ -340,7 +405,7 @@ TruePlaces true_places(const XSControl_Reader& reader, const RestatedCurves& res
   TruePlaces places;
   for (const RestatedPlace& restated_place : restated.places) {
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process, restated_place.entity);
-    if (!shape.IsNull()) places.add(shape.Location(), restated_place.place);
+    if (!shape.IsNull()) places.add(shape.Location(), restated_place.place, restated_place.stand_in);
   }
   return places;
 }

@@ -70,7 +70,7 @@ void Run::go_on_from(const Checkpoint& point) {
   at = {std::make_unique<BeamSystem>(model, point.plan), point.state};
   integrator = start_integrator(options.integrator, *at.system, at.state);
   integrator->restore(point.state, point.history);
-  step = point.next_step;
+  step = options.step.value_or(point.next_step);
   last_step = point.last_step;
   transient = point.transient;
   restarted = point.restarted;

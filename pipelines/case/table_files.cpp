@@ -68,9 +68,13 @@ struct Line {
 
 class TableFile {
  public:
-  TableFile(const Json& json, std::string path, const std::filesystem::path& directory, std::size_t columns,
+  TableFile(const Shape& shape, const Json& json, std::string path, const std::filesystem::path& directory,
             Findings& findings)
-      : json_(json), path_(std::move(path)), count_(columns), findings_(findings) {
+      : shape_(shape),
+        json_(json),
+        path_(std::move(path)),
+        count_(1 + static_cast<std::size_t>(shape.values)),
+        findings_(findings) {
     if (has_text("file")) file_ = (directory / json["file"].get<std::string>()).lexically_normal();
   }
 
@@ -85,6 +89,10 @@ class TableFile {
     if (!choose_columns() || !read_units()) return nullptr;
     Json rows = Json::array();
     for (const Line& line : lines_) {
+      if (!has_headings(line))
+        return failed(child(path_, "file"), where(line) + "has " + std::to_string(line.cells.size()) +
+                                                " numbers, but the first line names " +
+                                                std::to_string(header_.size()) + " columns");
       Json row = Json::array();
       for (std::size_t i = 0; i < columns_.size(); ++i) {
         const std::size_t column = columns_[i];
@@ -143,6 +151,13 @@ class TableFile {
     return false;
   }
 
+  // Whether all that the line holds is in a column with a name, where columns have names.
+  bool has_headings(const Line& line) const {
+    if (header_.empty() || line.cells.size() <= header_.size()) return true;
+    return std::all_of(line.cells.begin() + static_cast<std::ptrdiff_t>(header_.size()), line.cells.end(),
+                       [](const std::string& cell) { return cell.empty(); });
+  }
+
   // By their names; without them the first ones.
   bool choose_columns() {
     if (!json_.contains("columns")) {
@@ -175,24 +190,33 @@ class TableFile {
     return true;
   }
 
-  // What 1 of each column is in SI units.
+  // What 1 of each column is in SI units: of what it measures, where that is known.
   bool read_units() {
-    for (const std::size_t column : columns_) {
-      const Column of = column < header_.size() ? column_of(header_[column]) : Column{};
-      const std::optional<double> unit = of.unit ? in_si_units(*of.unit) : std::optional(1.0);
-      if (!unit) {
-        findings_.error(child(path_, "file"), in_quotes(file_.string()) + ": the column " +
-                                                  in_quotes(header_[column]) + " has an unknown unit " +
-                                                  in_quotes(*of.unit) +
-                                                  "; write one as \"[mm]\" or \"[N m]\", or numbers in SI "
-                                                  "units without one");
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Column of = columns_[i] < header_.size() ? column_of(header_[columns_[i]]) : Column{};
+      if (!of.unit) {
+        units_.push_back(1);
+        continue;
+      }
+      const Dimension dimension = i == 0 ? shape_.argument : shape_.dimension;
+      const auto unit = in_si_units(*of.unit);
+      const ParsedQuantity one = unit && dimension != Dimension::number && *of.unit != "-"
+                                     ? parse_quantity("1 " + *of.unit, dimension)
+                                     : ParsedQuantity{unit, "unknown unit " + in_quotes(*of.unit)};
+      if (!one.value) {
+        findings_.error(child(path_, "file"),
+                        in_quotes(file_.string()) + ": the column " + in_quotes(header_[columns_[i]]) +
+                            " cannot be read: " + one.error +
+                            "; write its unit as \"[mm]\" or \"[N m]\", or numbers in SI "
+                            "units without one");
         return false;
       }
-      units_.push_back(*unit);
+      units_.push_back(*one.value);
     }
     return true;
   }
 
+  const Shape& shape_;
   const Json& json_;
   std::string path_;
   std::size_t count_;
@@ -218,7 +242,7 @@ void put_in_tables(const Shape& shape, Json& value, const std::string& path,
   } else if (shape.kind == Kind::either) {
     for (const Shape& item : shape.items) put_in_tables(item, value, path, directory, findings);
   } else if (shape.kind == Kind::table && value.is_object()) {
-    value = TableFile(value, path, directory, 1 + static_cast<std::size_t>(shape.values), findings).rows();
+    value = TableFile(shape, value, path, directory, findings).rows();
   }
 }
 

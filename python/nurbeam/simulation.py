@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
@@ -41,8 +42,13 @@ class Checkpoint:
 
     @staticmethod
     def load(file: str | os.PathLike[str]) -> Checkpoint:
-        """Reads one that `save`, or a run into a directory (`restart.nc`), has written."""
-        return Checkpoint(_core.Checkpoint.load(os.fspath(file)))
+        """Reads one that `save`, or a run into a directory (`restart.nc`), has written. OSError where there is no such
+        file, ValueError where it is another."""
+        os.stat(file)
+        try:
+            return Checkpoint(_core.Checkpoint.load(os.fspath(file)))
+        except RuntimeError as problem:
+            raise ValueError(f"{os.fspath(file)!r} is no checkpoint that can be read: {problem}") from None
 
 
 class Simulation:
@@ -72,7 +78,9 @@ class Simulation:
         return more
 
     def run_until(self, time: float) -> bool:
-        """Takes steps until the time [s] is reached. Returns whether more are to come."""
+        """Takes steps until the time [s] is reached. Returns whether more are to come. ValueError for no number."""
+        if math.isnan(time):
+            raise ValueError("time is not a number")
         more = not self.ended
         while more and (self.time < time or not self._core.begun):
             more = self.step()

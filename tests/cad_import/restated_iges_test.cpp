@@ -376,5 +376,26 @@ TEST(RestatedIges, OffsetCurvesThatAreNotReadAreNamed) {
   refused({.type = 110, .parameters = "110,1,0,2,21,0,2;"}, "1,0", "1 to 0; the first");
 }
 
+// OpenCASCADE makes one curve of it, without the fourth control point.
+TEST(RestatedIges, SplinesInTwoPiecesAreNamed) {
+  const auto spline = [](const std::string& fourth) {
+    return import_text(
+        iges_text_of({{126, "126,5,2,0,0,1,0,0,0,0,1,1,1,2,2,2,1,1,1,1,1,1,0,0,0,1,2,0,3,2,0," + fourth +
+                                ",5,5,0,7,7,0,0,2;"}}));
+  };
+  const ImportReport apart = spline("4,0,0"), together = spline("3,2,0");
+  EXPECT_TRUE(apart.curves.empty());
+  ASSERT_FALSE(apart.diagnostics.empty());
+  EXPECT_NE(apart.diagnostics[0].message.find("its knot 1 stands 3 times; at most 2 are allowed"),
+            std::string::npos)
+      << apart.diagnostics[0].message;
+  ASSERT_EQ(together.curves.size(), 1U);
+  const NurbsCurve& curve = together.curves[0].curve;
+  EXPECT_LE((curve.point(curve.knots().start() + 0.5 * (curve.knots().end() - curve.knots().start())) -
+             Eigen::Vector3d(3e-3, 2e-3, 0))
+                .norm(),
+            1e-15);
+}
+
 }  // namespace
 }  // namespace nurbeam::restated_iges

@@ -286,6 +286,38 @@ TEST(RestatedStep, ReplicasAreScaledTurnedAndMirrored) {
     }
 }
 
+// -------------------------------------------------------------------------------------- pieces of pieces
+
+// The parameter of a piece counts from where it begins, along it (ISO 10303-42).
+TEST(RestatedStep, PiecesOfPiecesCountFromWhereTheseBegin) {
+  const auto piece = [](const std::string& number, const std::string& basis, double first, double last,
+                        bool along) {
+    return "#" + number + " = TRIMMED_CURVE('',#" + basis + ",(PARAMETER_VALUE(" + text_of(first) +
+           ")),(PARAMETER_VALUE(" + text_of(last) + "))," + (along ? ".T." : ".F.") + ",.PARAMETER.);\n";
+  };
+  const std::string line = "#110 = LINE('',#12,#111);\n#111 = VECTOR('',#14,1.);\n",
+                    circle = "#110 = CIRCLE('',#11,5.);\n";
+  for (const Unit& unit : units) {
+    const auto read = [&](const std::string& text) {
+      return only_curve(step_text_of("#100", text, "", unit.text));
+    };
+    expect_ends(read(piece("100", "101", 1, 3, true) + piece("101", "110", 2, 8, true) + line), {3, 0, 0},
+                {5, 0, 0}, unit.in_metres);
+    expect_ends(read(piece("100", "101", 3, 1, false) + piece("101", "110", 2, 8, true) + line), {5, 0, 0},
+                {3, 0, 0}, unit.in_metres);
+    expect_ends(read(piece("100", "101", 1, 3, true) + piece("101", "110", 8, 2, false) + line), {7, 0, 0},
+                {5, 0, 0}, unit.in_metres);
+    expect_ends(read(piece("100", "101", 0.5, 1, true) + piece("101", "102", 1, 3, true) +
+                     piece("102", "110", 2, 8, true) + line),
+                {3.5, 0, 0}, {4, 0, 0}, unit.in_metres);
+    const auto on_circle = [](double angle) {
+      return Eigen::Vector3d(5 * std::cos(angle), 5 * std::sin(angle), 0);
+    };
+    expect_ends(read(piece("100", "101", 0.25, 1, true) + piece("101", "110", 6, 8, true) + circle),
+                on_circle(6.25), on_circle(7), unit.in_metres);
+  }
+}
+
 // ------------------------------------------------------------------------------------------ mapped items
 
 /// A file in which the arc #101 is mapped by the operator of a replica; also, where that is wanted, by an

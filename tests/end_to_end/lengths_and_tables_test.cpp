@@ -309,6 +309,21 @@ TEST(TableFiles, ThatCannotBeReadNamePlaceAndLine) {
   says(R"(loads[0].time={"file": "table.csv", "columns": ["t"]})", "t,f\n0,0\n", "names of 2 columns");
   says(R"(loads[0].time={"fil": "table.csv"})", "t,f\n0,0\n", "unknown key \"fil\"");
   says(R"(loads[0].time={"file": "table.csv"})", "1,0\n0,0\n", "times must increase");
+  says(R"(loads[0].time={"file": "table.csv"})", "t [mm],f\n0,0\n",
+       "the column \"t [mm]\" cannot be read: \"1 mm\"");
+  says(R"(loads[0].time={"file": "table.csv"})", "t [foo],f\n0,0\n", "unknown unit \"foo\"");
+  says(R"(loads[0].time={"file": "table.csv"})", "t,f\n0,0,7\n",
+       "line 2: has 3 numbers, but the first line names 2");
+}
+
+TEST(TableFiles, HaveTheirColumnsInTheUnitsOfTheirHeadings) {
+  const CaseRun seconds =
+      run_text(cantilever, {R"(loads[0].time=[[0, 0], [1, 1]])", "analysis.load_steps=4"});
+  const CaseRun milliseconds =
+      run_text(cantilever, {R"(loads[0].time={"file": "table.csv"})", "analysis.load_steps=4"},
+               "t [ms],f,\n0,0,\n1000,1,\n");
+  ASSERT_EQ(milliseconds.code, 0) << milliseconds.messages;
+  expect_same(milliseconds, seconds);
 }
 
 // A free bar of 61.65 kg; what a force gives it in all [N s], whatever the steps.

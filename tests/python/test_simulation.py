@@ -62,6 +62,23 @@ def test_a_checkpoint_goes_on_bit_by_bit(tmp_path):
         assert np.array_equal(values[-count:], rest.histories[name], equal_nan=True), name
 
 
+def test_a_motion_goes_on_with_the_steps_that_it_is_given():
+    simulation = swinging().simulate(end_time=0.1, step=1e-3)
+    simulation.run_until(0.0305)
+    rest = swinging().simulate(end_time=0.1, step=5e-4, start=simulation.checkpoint).run()
+    assert len(rest.steps) == pytest.approx(140, abs=2)
+
+
+def test_what_is_no_checkpoint_and_no_time_is_refused(tmp_path):
+    (tmp_path / "other.nc").write_text("no results")
+    with pytest.raises(ValueError, match="is no checkpoint that can be read"):
+        nb.Checkpoint.load(tmp_path / "other.nc")
+    with pytest.raises(FileNotFoundError):
+        nb.Checkpoint.load(tmp_path / "none.nc")
+    with pytest.raises(ValueError, match="time is not a number"):
+        swinging().simulate(**RUN).run_until(float("nan"))
+
+
 def test_there_is_no_checkpoint_before_the_first_step():
     with pytest.raises(ValueError, match="motion that has begun"):
         swinging().simulate(**RUN).checkpoint
