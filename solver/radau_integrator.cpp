@@ -71,7 +71,8 @@ struct RadauIntegrator::Implementation {
           return report;
         }
         report.status = StepStatus::not_converged;
-        shorter = ratio;
+        // Behind an event what rings fast falls more slowly than by the method's order.
+        shorter = report.rejected > 0 ? std::min(ratio, shorter) : ratio;
       }
       ++report.rejected;
       h *= shorter;

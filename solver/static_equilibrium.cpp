@@ -119,6 +119,7 @@ class EquilibriumSearch {
     Outcome outcome = newton(factor, trial);
     const double moved = change(trial, state_);
     outcome.turns_back = moved > noticeable_change && (trial.q - state_.q).cwiseQuotient(scale_).dot(way) < 0;
+    if (outcome.branches() && change(trial, start_) <= settled_change) report_.leaves_start = true;
     outcome.converged = outcome.converged && !outcome.singular_at_start && !outcome.unstable() &&
                         moved <= largest_change && !outcome.turns_back;
     if (outcome.converged) accept(factor, trial, outcome);

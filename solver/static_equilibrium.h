@@ -27,8 +27,9 @@ struct StaticReport {
   StaticStatus status = StaticStatus::not_converged;
   int load_steps = 0;
   int newton_iterations = 0;
-  double load_factor = 0;    ///< reached
-  double residual_norm = 0;  ///< scaled as `tolerance` is
+  double load_factor = 0;     ///< reached
+  double residual_norm = 0;   ///< scaled as `tolerance` is
+  bool leaves_start = false;  ///< which lay at an equilibrium that is not stable
   bool diverges =
       false;  ///< left by what touches it: loads without energy, and none was found that is stable
 };

@@ -207,8 +207,7 @@ struct Simulation::Implementation {
     run_.report.steps += rest.load_steps;
     run_.report.length_control_seconds += rest.length_control_seconds;
     run_.report.diverges = run_.report.diverges || rest.diverges;
-    if (rest.snap && !run_.report.snap)
-      run_.report.snap = rest.snap->load * (rest.snap->t > 0 ? rest.snap->t : 1);  // a load step's factor
+    if (rest.snap && !run_.report.snap) run_.report.snap = rest.snap;
     if (rest.interrupted) run_.report.status = SimulationStatus::interrupted;
     return !rest.interrupted && run_.goes_on(std::move(rest.failure));
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/motion/loaded_between.h"
 #include "fem/motion/loose_part.h"
 #include "fem/motion/run_event.h"
 #include "solver/integrator.h"
@@ -81,7 +82,7 @@ struct SimulationReport {
   long cut_steps = 0;
   double shortest_cut = std::numeric_limits<double>::infinity();
   bool diverges = false;           ///< an equilibrium that was found leaves itself when it is touched
-  std::optional<double> snap;      ///< load factor under which the model snaps through or buckles, at rest
+  std::optional<Loading> snap;     ///< under which the model snaps through or buckles, at rest
   std::optional<LoosePart> loose;  ///< of a mechanism, at the last rest
   double motion_seconds = 0, length_control_seconds = 0;
   double energy_drift = 0;         ///< largest departure of the total energy from its start [J]

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fem/system/observables.h"
 #include "solver/equilibrated_kkt.h"
 #include "solver/static_equilibrium.h"
 #include "solver/tangent_matrix.h"
@@ -30,7 +31,11 @@ class SnapSearch {
   // How far on the way from `from` to `to` (0 and 1).
   std::optional<double> run(const State& from, const State& to) {
     State start = from;
-    if (!settle(start, 0, 0, few_load_steps)) return {};
+    StaticReport found = settled(start, 0, 0, few_load_steps);
+    if (found.leaves_start && found.status != StaticStatus::converged)
+      found = settled(start, 0, 0, most_load_steps);
+    if (found.status != StaticStatus::converged) return {};
+    if (first_ > 0 && found.leaves_start && outweighs_loads(from, start)) return 0;
     whole_ = distance(start, to);
     constexpr double noticeable = 1e-6;  // of the model
     if (whole_ < noticeable) return {};
@@ -67,18 +72,29 @@ class SnapSearch {
   }
 
   bool settle(State& state, double part, double from, int most) {
+    return settled(state, part, from, most).status == StaticStatus::converged;
+  }
+  StaticReport settled(State& state, double part, double from, int most) {
     most = std::min(most, load_steps_left_);
-    if (most <= 0) return false;
+    if (most <= 0) return {};
     const LoadedBetween system(system_, way_.at(from), way_.at(part), interrupted_);
     state.load = 1;
     const StaticReport found = find_static_equilibrium({.max_load_steps = most}, system, state);
     load_steps_left_ -= found.load_steps;
-    return found.status == StaticStatus::converged;
+    return found;
+  }
+
+  // Whether what has been bent without loads holds more than all loads could have done on the way there.
+  bool outweighs_loads(const State& drawn, const State& bent) const {
+    const Point point{bent, 0};
+    const Vector loads = (residual(point, 1) - residual(point, 0)).head(scale_.size());
+    return loads.cwiseProduct(scale_).lpNorm<1>() * distance(drawn, bent) <= energy(system_, bent).bending;
   }
 
   // Whether the tangents at both ends lead from one to the other.
   bool joined(const Point& a, const Point& b) const {
-    constexpr double astray = 0.5;
+    constexpr double astray = 0.5, round_off = 1e-6;  // of the whole way
+    if (distance(a.state, b.state) <= round_off * whole_) return true;
     const Vector way = (b.state.q - a.state.q).cwiseQuotient(scale_);
     const auto leads = [&](const Vector& move) { return (move - way).norm() <= astray * way.norm(); };
     return leads(heading(a, b.part)) && leads(-heading(b, a.part));

@@ -219,8 +219,9 @@ class Run {
     std::vector<Diagnostic> warnings = shared_pull_warnings(case_.path, outputs.shared_pulls().coarse());
     for (const auto& warning :
          {compression_warning(case_.path, outputs.least_strain()), divergence_warning(case_.path, simulated),
-          snap_warning(case_.path, simulated), mechanism_warning(case_.path, simulated, built_.frame),
-          energy_warning(case_, simulated), short_steps_note(case_.path, simulated),
+          snap_warning(case_.path, simulated, built_.model),
+          mechanism_warning(case_.path, simulated, built_.frame), energy_warning(case_, simulated),
+          short_steps_note(case_.path, simulated),
           summary_.modes ? fewer_modes_note(case_, *summary_.modes) : std::nullopt})
       if (warning) warnings.push_back(*warning);
     print_diagnostics(messages_, warnings);

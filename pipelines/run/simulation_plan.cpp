@@ -99,15 +99,29 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
       "space have no energy that it could be the least of; see with a damped dynamic analysis where it goes"};
 }
 
-std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run) {
-  constexpr double slight = 0.01;  // of the loads: what hangs loosely finds its shape
-  if (!run.snap || *run.snap < slight) return {};
-  return Diagnostic{
-      Severity::warning, file.string() + ": loads",
-      "the model snaps through or buckles under " + text_of(*run.snap, 3) +
-          " of its loads: the equilibrium beyond is on another branch, of which there may be "
-          "several; \"load_steps\" show the way up to there, a damped dynamic analysis where it "
-          "goes from there"};
+std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run,
+                                       const BeamModel& model) {
+  if (!run.snap) return {};
+  const auto [load, t] = *run.snap;
+  const double factor = t > 0 ? t : 1;  // of a load step
+  constexpr double slight = 0.01;       // of the loads: what hangs loosely finds its shape
+  if (load > 0 && load * factor < slight) return {};
+  constexpr int digits = 3;
+  const std::string weight = text_of(load, digits) + " of its weight",
+                    loads = text_of(load * factor, digits) + " of its loads";
+  const bool has_weight = model.gravity.norm() > 0;
+  // Weight is there in full in all load steps, and comes with the first of them.
+  const bool in_first_step = has_weight && load < 1 && factor != 1;
+  const std::string under = load == 0 ? "buckles without any load, by tension or lengths alone"
+                            : in_first_step ? "snaps through or buckles under " + weight + " and " + loads
+                                            : "snaps through or buckles under " + loads;
+  const bool by_steps = load > 0 && !in_first_step && !model.forces.empty();
+  return Diagnostic{Severity::warning, file.string() + ": loads",
+                    "the model " + under +
+                        ": the equilibrium beyond is on another branch, of which there may be several; " +
+                        (by_steps ? "\"load_steps\" show the way up to there, " : "") +
+                        "a damped dynamic analysis " + (by_steps ? "" : "shows ") +
+                        "where it goes from there"};
 }
 
 std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, const SimulationReport& run,

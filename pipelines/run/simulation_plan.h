@@ -33,8 +33,10 @@ std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, co
 /// A warning where an equilibrium is unstable and no stable one was found; `file` heads it.
 std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run);
 
-/// A warning where loads have led past the end of a branch of equilibria; `file` heads it.
-std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run);
+/// A warning where loads have led past the end of a branch of equilibria, or nothing but what acts besides
+/// loads; `file` heads it.
+std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run,
+                                       const BeamModel& model);
 
 /// A warning where a model at rest is a mechanism; `file` heads it, `frame` is that of the model.
 std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, const SimulationReport& run,

@@ -153,7 +153,7 @@ TEST(HostileFile, WithoutAnyCurveSaysWhyInTheError) {
   EXPECT_NE(ray.find("it is a ray"), std::string::npos) << ray;
   const std::string circles =
       error_of(step_text_of("#100,#101", "#100 = CIRCLE('',#11,-1.);\n#101 = CIRCLE('',#11,-2.);\n"));
-  EXPECT_NE(circles.find("its radius is -1; it must be positive (and 1 more"), std::string::npos) << circles;
+  EXPECT_NE(circles.find("its radius is -1; it must be positive; #101 Circle"), std::string::npos) << circles;
   EXPECT_NE(error_of(step_text_of("#13", "")).find("expected at least one"), std::string::npos);
 }
 

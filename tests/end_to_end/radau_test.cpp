@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "tests/end_to_end/case_run.h"
 
@@ -81,6 +82,27 @@ TEST(RadauRun, SaysWhatHasNoEffect) {
       run_text(bead_case("", "[]", R"({"end_time": 0.1})"), {radau, "analysis.integrator.rho_infinity=0.5"});
   EXPECT_EQ(run.code, 0);
   EXPECT_TRUE(run.says("rho_infinity: has an effect with \"generalized-alpha\" only")) << run.messages;
+}
+
+// A change of the mesh sets elements ringing, whose error falls with the step, not with its fifth power.
+TEST(RadauRun, GoesOnBehindChangesOfTheMesh) {
+  const std::string model = R"({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "b",
+    "axis": {"polyline": [[0, 0, 0], [3, 0.5, -0.6]]}, "section": {"radius": 0.015}, "torsion": false,
+    "material": {"density": 7800, "youngs_modulus": 7e10, "damping": 1e-4, "mass_damping": 0.5},
+    "elements": {"count": 8}}], "supports": [{"beam": "b", "at": "start", "type": "clamped"}],
+    "bodies": [{"name": "m", "mass": 0.6723591756663514}],
+    "sliding_joints": [{"body": "m", "beam": "b", "at": {"fraction": 0.2325}, "speed": 2.9020471141940547,
+                        "carried_as": "node"}],
+    "analysis": {"end_time": 0.25, "initial": "equilibrium"}, "output": {"every": 0.05, "report": false}})";
+  const CaseRun fine = run_text(model, {"analysis.step=2e-4"});
+  ASSERT_EQ(fine.code, 0) << fine.messages;
+  for (int i = 0; i < 24; ++i) {
+    const double tolerance = 1e-6 * std::pow(3.2, i / 23.0);
+    const CaseRun run =
+        run_text(model, {radau, "analysis.tolerance=" + std::to_string(1e6 * tolerance) + "e-6"});
+    ASSERT_EQ(run.code, 0) << tolerance << run.messages;
+    EXPECT_NEAR(run.last("m.s [m]"), fine.last("m.s [m]"), 1e-4) << tolerance;
+  }
 }
 
 }  // namespace

@@ -123,6 +123,34 @@ TEST(SnapThrough, IsToldOfAStraightStrutThatBuckles) {
   EXPECT_FALSE(pressed(0.99).says("buckles")) << pressed(0.99).messages;
 }
 
+// By 4 pi^2 EI/L^2, of which heat and a drawn thrust of 12 kN have more; weight buckles at 7.837 EI/L^3.
+TEST(SnapThrough, IsToldOfWhatHeatThrustOrWeightBuckles) {
+  const auto bar = [](const std::string& axis, const std::string& more) {
+    return R"({ "nurbeam": 1, "gravity": [0, 0, -3433.5], "beams": [{ "name": "b",
+        "axis": { "polyline": [[0, 0, 0], )" +
+           axis + R"(] }, "section": { "area": 1e-4, "second_moment": 1e-9 },
+        "material": { "density": 7800, "youngs_modulus": 2e11, "thermal_expansion": 1e-5 },
+        "elements": { "count": 8 } }], "analysis": { "type": "static" }, "output": { "report": false },
+      "supports": [{ "beam": "b", "at": "start", "type": "clamped" })" +
+           more + "] }";
+  };
+  const std::string held = bar("[1, 0, 0]", R"(, { "beam": "b", "at": "end", "type": "clamped" })"),
+                    stands = bar("[0, 0, 1]", ""), weightless = "gravity=[0, 0, 0]";
+  const CaseRun hot = run_text(held, {weightless, "beams[0].temperature=60"}),
+                warm = run_text(held, {weightless, "beams[0].temperature=38"}),
+                pressed = run_text(held, {weightless, "beams[0].tension=-12000"}),
+                heavy = run_text(stands, {}),
+                in_steps = run_text(stands, {"analysis.load_steps=[0.1, 0.5, 1]"});
+  for (const CaseRun* run : {&hot, &warm, &pressed, &heavy, &in_steps})
+    ASSERT_EQ(run->code, 0) << run->messages;
+  EXPECT_TRUE(hot.says("buckles under 0.65")) << hot.messages;
+  EXPECT_FALSE(warm.says("buckles")) << warm.messages;
+  EXPECT_TRUE(pressed.says("buckles without any load")) << pressed.messages;
+  EXPECT_TRUE(heavy.says("buckles under 0.58")) << heavy.messages;
+  EXPECT_FALSE(heavy.says("load_steps")) << heavy.messages;
+  EXPECT_TRUE(in_steps.says(" of its weight and 0.058")) << in_steps.messages;
+}
+
 // What moves far, but smoothly, is on one branch.
 TEST(SnapThrough, IsNotToldOfWhatMovesFar) {
   const CaseRun bent = run("elastica.json", {set_y("loads[0].force", -10)});
