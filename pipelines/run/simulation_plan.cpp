@@ -112,7 +112,7 @@ std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const 
   const bool has_weight = model.gravity.norm() > 0;
   // Weight is there in full in all load steps, and comes with the first of them.
   const bool in_first_step = has_weight && load < 1 && factor != 1;
-  const std::string under = load == 0 ? "buckles without any load, by tension or lengths alone"
+  const std::string under = load == 0       ? "buckles without any load, by tension or lengths alone"
                             : in_first_step ? "snaps through or buckles under " + weight + " and " + loads
                                             : "snaps through or buckles under " + loads;
   const bool by_steps = load > 0 && !in_first_step && !model.forces.empty();
