@@ -247,8 +247,20 @@ struct Simulation::Implementation {
   void go_on_from(const Checkpoint& point) {
     run_.go_on_from(point);
     iterations_written_ = point.iterations_in_snapshots;
-    next_output_ = point.snapshots;
+    next_output_ = next_output_after(point);
     seconds_ = run_.report.motion_seconds + run_.report.length_control_seconds;
+  }
+
+  // That of the checkpoint where output times are those of its run.
+  std::size_t next_output_after(const Checkpoint& point) const {
+    const auto& times = run_.options.output_times;
+    const double t = point.state.t, near = 1e-12 * std::abs(t);
+    const std::size_t next = point.snapshots;
+    const bool same = next <= times.size() && (next == 0 || times[next - 1] <= t + near) &&
+                      (next == times.size() || times[next] >= t - near);
+    return same ? next
+                : static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t + near) -
+                                           times.begin());
   }
 
   // A step towards the next output time, and what is to be told of it.

@@ -144,7 +144,8 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     }
     case Failure::Kind::free_lengths:
       return "no lengths of the connectors were found with which they do in equilibrium what \"as-drawn\" or "
-             "\"force\" says: one of them does not move its end, or another one holds it";
+             "\"force\" says: one of them does not move its end, another one holds it, or with these forces the model "
+             "is not stable";
     case Failure::Kind::wrong_sign: {
       const Connector& connector = model.connectors[failure.connector];
       const bool pulls = connector.type == ConnectorType::tension_only;

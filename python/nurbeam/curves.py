@@ -176,6 +176,8 @@ class Curve:
         """A cubic curve, as beams are made of, and a bound on how far points of the two at one parameter are apart [m]: 0
         up to degree 3, which is exact, else proven and at most the tolerance [m], greater than 0; one below 1e-14 of the
         size of the coordinates is taken as that."""
+        if not tolerance > 0:
+            raise ValueError(f"tolerance {tolerance} is not positive")
         nurbs, deviation = self._nurbs.cubics(tolerance)
         return Curve._of(nurbs, self.name), deviation
 

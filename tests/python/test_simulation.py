@@ -69,6 +69,13 @@ def test_a_motion_goes_on_with_the_steps_that_it_is_given():
     assert len(rest.steps) == pytest.approx(140, abs=2)
 
 
+def test_a_motion_goes_on_to_the_output_times_that_it_is_given():
+    simulation = swinging().simulate(end_time=0.1, step=1e-3, every=0.005)
+    simulation.run_until(0.0305)
+    rest = swinging().simulate(end_time=0.1, step=1e-3, every=0.01, start=simulation.checkpoint).run()
+    assert [snapshot.time for snapshot in rest] == pytest.approx([0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1])
+
+
 def test_what_is_no_checkpoint_and_no_time_is_refused(tmp_path):
     (tmp_path / "other.nc").write_text("no results")
     with pytest.raises(ValueError, match="is no checkpoint that can be read"):
