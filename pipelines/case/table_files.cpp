@@ -198,17 +198,20 @@ class TableFile {
         units_.push_back(1);
         continue;
       }
-      const Dimension dimension = i == 0 ? shape_.argument : shape_.dimension;
+      const std::string column =
+          in_quotes(file_.string()) + ": the column " + in_quotes(header_[columns_[i]]);
       const auto unit = in_si_units(*of.unit);
-      const ParsedQuantity one = unit && dimension != Dimension::number && *of.unit != "-"
-                                     ? parse_quantity("1 " + *of.unit, dimension)
-                                     : ParsedQuantity{unit, "unknown unit " + in_quotes(*of.unit)};
-      if (!one.value) {
+      if (!unit) {
         findings_.error(child(path_, "file"),
-                        in_quotes(file_.string()) + ": the column " + in_quotes(header_[columns_[i]]) +
-                            " cannot be read: " + one.error +
-                            "; write its unit as \"[mm]\" or \"[N m]\", or numbers in SI "
-                            "units without one");
+                        column + " has an unknown unit " + in_quotes(*of.unit) +
+                            "; write one as \"[mm]\" or \"[N m]\", or numbers in SI units without one");
+        return false;
+      }
+      const Dimension dimension = i == 0 ? shape_.argument : shape_.dimension;
+      const bool any = dimension == Dimension::number || *of.unit == "-";
+      const ParsedQuantity one = any ? ParsedQuantity{unit, {}} : parse_quantity("1 " + *of.unit, dimension);
+      if (!one.value) {
+        findings_.error(child(path_, "file"), column + " cannot be read: " + one.error);
         return false;
       }
       units_.push_back(*one.value);

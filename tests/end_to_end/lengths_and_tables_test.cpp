@@ -311,7 +311,7 @@ TEST(TableFiles, ThatCannotBeReadNamePlaceAndLine) {
   says(R"(loads[0].time={"file": "table.csv"})", "1,0\n0,0\n", "times must increase");
   says(R"(loads[0].time={"file": "table.csv"})", "t [mm],f\n0,0\n",
        "the column \"t [mm]\" cannot be read: \"1 mm\"");
-  says(R"(loads[0].time={"file": "table.csv"})", "t [foo],f\n0,0\n", "unknown unit \"foo\"");
+  says(R"(loads[0].time={"file": "table.csv"})", "t [foo],f\n0,0\n", "has an unknown unit \"foo\"");
   says(R"(loads[0].time={"file": "table.csv"})", "t,f\n0,0,7\n",
        "line 2: has 3 numbers, but the first line names 2");
 }
