@@ -200,18 +200,18 @@ void read_brep(const std::string& content, double tolerance, ImportReport& repor
 
 // Why there is no curve: what was said of the entities of the file.
 std::string without_curves(const ImportReport& report) {
-  constexpr int most_named = 3;
+  constexpr int most_reasons = 3;
   std::string reasons;
   int count = 0;
   for (const auto& [severity, where, message] : report.diagnostics) {
     const std::size_t file = report.file.size() + 2;  // "file: entity"
-    if (severity != Severity::warning || where.size() <= file || ++count > most_named) continue;
+    if (severity != Severity::warning || where.size() <= file || ++count > most_reasons) continue;
     reasons += "; " + where.substr(file) + ": " + message;
   }
   if (reasons.empty())
     return "no curve in the file; expected at least one edge or free curve (line, conic, B-spline)";
   return "no curve of the file can be read" + reasons +
-         (count > most_named ? " (and " + std::to_string(count - most_named) + " more warning(s))" : "");
+         (count > most_reasons ? " (and " + std::to_string(count - most_reasons) + " more warning(s))" : "");
 }
 
 void read_format(const std::string& content, CadFormat format, double tolerance, const ReadFile& read_other,

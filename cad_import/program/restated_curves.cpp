@@ -1,18 +1,9 @@
 #include "cad_import/program/restated_curves.h"
 
 #include <HeaderSection_FileName.hxx>
-#include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESData_IGESModel.hxx>
-#include <IGESData_TransfEntity.hxx>
-#include <IGESGeom_CircularArc.hxx>
-#include <IGESGeom_ConicArc.hxx>
-#include <IGESGeom_Line.hxx>
-#include <IGESGeom_OffsetCurve.hxx>
-#include <IGESGeom_SurfaceOfRevolution.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
-#include <Standard_ErrorHandler.hxx>
-#include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
@@ -38,13 +29,9 @@
 #include <utility>
 #include <vector>
 
-#include "cad_import/iges/conic_position.h"
-#include "cad_import/iges/data_points.h"
-#include "cad_import/iges/line_forms.h"
-#include "cad_import/iges/location.h"
-#include "cad_import/iges/offset_curve.h"
-#include "cad_import/iges/subfigure_instance.h"
 #include "cad_import/program/part_places.h"
+#include "cad_import/program/remarks.h"
+#include "cad_import/program/restated_iges.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/axis_placement.h"
 #include "cad_import/step/between_placements.h"
@@ -60,140 +47,6 @@ namespace nurbeam {
 namespace {
 
 using Entity = Handle(Standard_Transient);
-
-/// What is said of the curves of one model.
-class Remarks {
- public:
-  Remarks(const Interface_InterfaceModel& model, ImportReport& report) : model_(model), report_(report) {}
-
-  /// Does it; whether that went well.
-  bool attempt(const Entity& entity, const std::function<void()>& restate) {
-    try {
-      OCC_CATCH_SIGNALS
-      restate();
-      return true;
-    } catch (const Standard_Failure& e) {
-      refuse(entity, std::string("OpenCASCADE makes no curve of its numbers: ") + e.GetMessageString());
-    } catch (const std::runtime_error& e) {
-      refuse(entity, e.what());
-    }
-    return false;
-  }
-  void warn(const Entity& entity, const std::string& message) { say(Severity::warning, entity, message); }
-  void note(const Entity& entity, const std::string& message) { say(Severity::note, entity, message); }
-  const EntitySet& refused() const { return refused_; }
-
- private:
-  void say(Severity severity, const Entity& entity, const std::string& message) {
-    const std::string name = entity_name(entity);
-    add_diagnostic(report_, severity, entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'"),
-                   message);
-  }
-  void refuse(const Entity& entity, const std::string& why) {
-    refused_.insert(entity.get());
-    warn(entity, "skipped with all that is made of it: " + why);
-  }
-
-  const Interface_InterfaceModel& model_;
-  ImportReport& report_;
-  EntitySet refused_;
-};
-
-// ---------------------------------------------------------------------------------------------------- IGES
-
-/// Those that place other entities; all are read before one is changed, for they share those that they go on
-/// to.
-void chain_matrices(const IGESData_IGESModel& model, Remarks& remarks) {
-  EntitySet seen;
-  std::vector<Entity> without_matrix;
-  std::vector<std::pair<Handle(IGESData_TransfEntity), Eigen::Affine3d>> chained;
-  for (int i = 1; i <= model.NbEntities(); ++i) {
-    const auto entity = Handle(IGESData_IGESEntity)::DownCast(model.Value(i));
-    const Handle(IGESData_TransfEntity) matrix = entity->Transf();
-    if (entity->HasTransf() && matrix.IsNull()) without_matrix.push_back(entity);
-    if (entity->IsKind(STANDARD_TYPE(IGESData_TransfEntity)) || matrix.IsNull() ||
-        !seen.insert(matrix.get()).second || !matrix->HasTransf())
-      continue;
-    remarks.attempt(matrix, [&] { chained.emplace_back(matrix, chained_location(*matrix)); });
-  }
-  for (const auto& [matrix, location] : chained) set_matrix(*matrix, location);
-  if (!without_matrix.empty())
-    remarks.warn(without_matrix[0],
-                 "what field 7 of its directory entry names is no transformation matrix (124), and "
-                 "it is read without; so are " +
-                     std::to_string(without_matrix.size()) + " entities in all: correct the fields");
-}
-
-/// Lines that need no ends.
-EntitySet axes_of_revolution(const IGESData_IGESModel& model) {
-  EntitySet axes;
-  for (int i = 1; i <= model.NbEntities(); ++i)
-    if (const auto surface = Handle(IGESGeom_SurfaceOfRevolution)::DownCast(model.Value(i)))
-      axes.insert(surface->AxisOfRevolution().get());
-  return axes;
-}
-
-/// OpenCASCADE scales no shape: it leaves out the scale, or the shape. `unit`: [mm].
-RestatedPlace restate_scaled(const Handle(IGESBasic_SingularSubfigure) & instance, double unit,
-                             Remarks& remarks) {
-  Eigen::Affine3d place = Eigen::Affine3d::Identity();
-  const bool is_read = remarks.attempt(instance, [&] { place = place_of(*instance); });
-  set_place(*instance, stand_in(place));
-  place.translation() *= unit * metres_per_millimetre;
-  return {Entity(instance), is_read ? std::optional(place) : std::nullopt, std::nullopt};
-}
-
-std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, double unit, Remarks& remarks) {
-  std::vector<RestatedPlace> places;
-  std::vector<Entity> turned_and_moved;
-  for (int i = 1; i <= model.NbEntities(); ++i) {
-    const auto instance = Handle(IGESBasic_SingularSubfigure)::DownCast(model.Value(i));
-    if (instance.IsNull() || instance->Subfigure().IsNull()) continue;
-    if (is_moved_after_turning(*instance)) turned_and_moved.push_back(instance);
-    if (is_scaled(*instance)) places.push_back(restate_scaled(instance, unit, remarks));
-  }
-  if (!turned_and_moved.empty())
-    remarks.note(turned_and_moved[0],
-                 "its X, Y, Z move what its matrix (124) has turned, and are not turned by it; so in " +
-                     std::to_string(turned_and_moved.size()) +
-                     " instance(s) of subfigures (408): where that is not meant, write the whole place "
-                     "into the matrix");
-  return places;
-}
-
-void note_data_points(const IGESData_IGESModel& model, Remarks& remarks) {
-  const std::vector<Handle(IGESData_IGESEntity)> points = data_points(model);
-  if (points.empty()) return;
-  remarks.note(points[0],
-               "its form, 1 to 3, is that of points that nothing connects, and it is read as straight lines "
-               "from one to the next; so in " +
-                   std::to_string(points.size()) +
-                   " entities (106) in all: where a path is meant, write form 11 to 13");
-}
-
-/// Matrices before what they place, and offsets before arcs: they refer to the parameters of the arcs as
-/// these are in the file. Returns what scales.
-std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
-  chain_matrices(model, remarks);
-  const EntitySet axes = axes_of_revolution(model);
-  const double unit = model.GlobalSection().UnitValue();  // [mm]
-  for (int i = 1; i <= model.NbEntities(); ++i)
-    if (const auto offset = Handle(IGESGeom_OffsetCurve)::DownCast(model.Value(i)))
-      remarks.attempt(offset, [&] { restate_offset(*offset, unit); });
-  for (int i = 1; i <= model.NbEntities(); ++i) {
-    if (const auto line = Handle(IGESGeom_Line)::DownCast(model.Value(i));
-        !line.IsNull() && !axes.contains(line.get()))
-      remarks.attempt(line, [&] { check_bounded(*line); });
-    if (const auto circle = Handle(IGESGeom_CircularArc)::DownCast(model.Value(i)))
-      remarks.attempt(circle, [&] { put_into_position(*circle); });
-    if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))
-      remarks.attempt(conic, [&] { put_into_position(*conic); });
-  }
-  note_data_points(model, remarks);
-  return restate_instances(model, unit, remarks);
-}
-
-// ---------------------------------------------------------------------------------------------------- STEP
 
 /// Whether the file was written by OpenCASCADE, or a program that has it.
 bool is_by_open_cascade(const StepData_StepModel& model) {

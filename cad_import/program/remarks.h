@@ -1,0 +1,34 @@
+#pragma once
+#include <Interface_InterfaceModel.hxx>
+#include <Standard_Transient.hxx>
+#include <functional>
+#include <string>
+
+#include "cad_import/program/entity_origins.h"
+#include "cad_import/report/import_report.h"
+
+namespace nurbeam {
+
+/// What is said of the entities of one model.
+class Remarks {
+ public:
+  using Entity = opencascade::handle<Standard_Transient>;
+
+  Remarks(const Interface_InterfaceModel& model, ImportReport& report) : model_(model), report_(report) {}
+
+  /// Does it; whether that went well: else the entity is refused, with a warning.
+  bool attempt(const Entity& entity, const std::function<void()>& restate);
+  void warn(const Entity& entity, const std::string& message) { say(Severity::warning, entity, message); }
+  void note(const Entity& entity, const std::string& message) { say(Severity::note, entity, message); }
+  const EntitySet& refused() const { return refused_; }
+
+ private:
+  void say(Severity severity, const Entity& entity, const std::string& message);
+  void refuse(const Entity& entity, const std::string& why);
+
+  const Interface_InterfaceModel& model_;
+  ImportReport& report_;
+  EntitySet refused_;
+};
+
+}  // namespace nurbeam
