@@ -16,8 +16,7 @@ using Vector = Eigen::VectorXd;
 class MechanismSearch {
  public:
   MechanismSearch(const SecondOrderSystem& system, const State& equilibrium)
-      : at_(equilibrium), equations_(system, equilibrium) {
-    equations_.clear_proximity();
+      : at_(equilibrium), scale_(system.coordinate_scale()), equations_(system, equilibrium) {
     equations_.rescale(at_, ForceSizes(system).largest_force(at_));
   }
 
@@ -29,7 +28,7 @@ class MechanismSearch {
     for (double amplitude = largest; amplitude > least; amplitude *= shorter)
       for (const double sign : {1.0, -1.0})
         if (const auto remains = stays(sign * amplitude * motion))
-          return *remains ? std::optional(motion) : std::nullopt;
+          return *remains ? std::optional<Vector>(motion.cwiseProduct(scale_)) : std::nullopt;
     return std::nullopt;
   }
 
@@ -88,6 +87,7 @@ class MechanismSearch {
   }
 
   const State at_;
+  const Vector scale_;
   ScaledEquations equations_;
   Vector factor_;
   KktSolver solver_;

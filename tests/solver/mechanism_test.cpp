@@ -16,11 +16,11 @@ using testing::DenseSystem;
 /// pulls it to y = 0.
 class Pendulum : public DenseSystem {
  public:
-  double weight = 0, spring = 0;
+  double weight = 0, spring = 0, scale = 1;
 
   int coordinate_count() const override { return 2; }
   int constraint_count() const override { return 1; }
-  Eigen::VectorXd coordinate_scale() const override { return Eigen::VectorXd::Ones(2); }
+  Eigen::VectorXd coordinate_scale() const override { return Eigen::VectorXd::Constant(2, scale); }
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override {
     dynamics = state.a + state.lambda[0] * state.q;
@@ -48,10 +48,14 @@ State at_rest(double x, double y, double lambda) {
 }
 
 TEST(Mechanism, IsARodThatNothingTurnsBack) {
-  const auto motion = find_mechanism(Pendulum{}, at_rest(0.6, 0.8, 0));
-  ASSERT_TRUE(motion);
-  EXPECT_NEAR(std::abs((*motion)[0]), 1, 1e-9);
-  EXPECT_NEAR((*motion)[0] * 0.6 + (*motion)[1] * 0.8, 0, 1e-9);
+  Pendulum rod;
+  for (const double scale : {1.0, 4.0, 0.25}) {
+    rod.scale = scale;
+    const auto motion = find_mechanism(rod, at_rest(0.6, 0.8, 0));
+    ASSERT_TRUE(motion);
+    EXPECT_NEAR(std::abs((*motion)[0]), scale, 1e-9);
+    EXPECT_NEAR((*motion)[0] * 0.6 + (*motion)[1] * 0.8, 0, 1e-9);
+  }
 }
 
 TEST(Mechanism, IsNoneWhereAWeightTurnsItBack) {
