@@ -156,7 +156,7 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
         accept(h);
         return report;
       }
-      report.status = StepStatus::not_converged;
+      report.status = StepStatus::inaccurate;
       shorter = std::max(0.2, safety * std::cbrt(tolerance / report.local_error));
     }
     ++report.rejected;

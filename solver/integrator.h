@@ -7,7 +7,13 @@
 
 namespace nurbeam {
 
-enum class StepStatus { converged, not_converged, singular_matrix, inadmissible };
+enum class StepStatus {
+  converged,
+  not_converged,
+  singular_matrix,
+  inadmissible,
+  inaccurate  ///< as error control finds it
+};
 
 struct StepReport {
   StepStatus status = StepStatus::converged;

@@ -70,7 +70,7 @@ struct RadauIntegrator::Implementation {
           accept();
           return report;
         }
-        report.status = StepStatus::not_converged;
+        report.status = StepStatus::inaccurate;
         // Behind an event what rings fast falls more slowly than by the method's order.
         shorter = report.rejected > 0 ? std::min(ratio, shorter) : ratio;
       }

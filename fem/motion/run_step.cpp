@@ -29,7 +29,7 @@ StepReport step_keeping_energy(Run& run, const IntegratorHistory& history, doubl
     if (i < most_halvings)
       taken = run.integrator->advance(refused.step / 2);
     else
-      taken.status = StepStatus::not_converged;
+      taken.status = StepStatus::inaccurate;
     taken.newton_iterations += refused.newton_iterations;
     taken.rejected += refused.rejected + 1;
   }

@@ -16,6 +16,8 @@ const char* reason_of(StepStatus status) {
       return "the iteration matrix is singular";
     case StepStatus::inadmissible:
       return "an element would turn inside out";
+    case StepStatus::inaccurate:
+      return "their error, or energy from nowhere, stays above what the \"tolerance\" allows";
     case StepStatus::converged:
       break;
   }
@@ -82,6 +84,12 @@ std::string shorter_step(const Failure& failure, const char* otherwise) {
          "\"generalized-alpha\", which is stable with any";
 }
 
+const char* step_hint(StepStatus status) {
+  if (status == StepStatus::inaccurate)
+    return "; a larger \"tolerance\", more elements, or a \"step\" in its place may help";
+  return "; a shorter \"step\" from the start, or a \"tolerance\", may help";
+}
+
 std::string failure_text(const Failure& failure, const BeamModel& model) {
   const std::string time = text_of(failure.time, 8) + " s", places = places_text(failure.places, model);
   switch (failure.kind) {
@@ -91,8 +99,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the mass matrix is singular at t = " + time;
     case Failure::Kind::step:
       return "the step from t = " + time + " failed, and shorter ones too: " + reason_of(failure.step) +
-             places +
-             shorter_step(failure, "; a shorter \"step\" from the start, or a \"tolerance\", may help");
+             places + shorter_step(failure, step_hint(failure.step));
     case Failure::Kind::endless_events:
       return "at t = " + time + " \"" + model.body_of(model.joints[failure.joint]).name +
              "\" hits stops, or sticks and slides, again and again at one moment" + places +

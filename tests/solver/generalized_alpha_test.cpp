@@ -296,6 +296,17 @@ TEST(GeneralizedAlpha, BalancesForcesHoweverSmallWhatTheyMoveIs) {
   }
 }
 
+TEST(GeneralizedAlpha, AnErrorAboveTheToleranceIsAStatusOfItsOwn) {
+  const CartesianPendulum pendulum;
+  const State start = pendulum.at_angle(0, 1.2, 0);
+  GeneralizedAlphaIntegrator integrator({.max_halvings = 0, .tolerance = 1e-12}, pendulum, start);
+  const StepReport report = integrator.advance(0.1);
+  EXPECT_EQ(report.status, StepStatus::inaccurate);
+  EXPECT_GT(report.local_error, 1e-12);
+  EXPECT_EQ(report.rejected, 1);
+  EXPECT_EQ(integrator.state().q, start.q);
+}
+
 TEST(GeneralizedAlpha, TheSystemsLimitBoundsTheStep) {
   CartesianPendulum pendulum;
   pendulum.longest_step = 0.003;
