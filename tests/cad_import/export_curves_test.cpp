@@ -261,6 +261,27 @@ TEST(ExportCurves, DxfLayersHaveNoForbiddenLetters) {
   EXPECT_EQ(report.curves[2].layer, "Drahtseil \xC3\x84");
 }
 
+TEST(ExportCurves, DxfLayersOfDifferentNamesDiffer) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "curves.dxf";
+  const std::string longest(255, 'x'),
+      umlaut =
+          "Stra\xC3\x9F"
+          "e \xC3\x84",
+      small =
+          "stra\xC3\x9F"
+          "e \xC3\xA4";
+  std::vector<NamedCurve> curves;
+  for (const std::string& name : {std::string("a;b"), std::string("a_b"), std::string("A_B"),
+                                  std::string("a;b"), longest + "y", longest + "z", umlaut, small})
+    curves.push_back({name, quarter_circle(1)});
+  ASSERT_TRUE(export_curves(file, curves, LengthUnit::metre).empty());
+  std::vector<std::string> layers;
+  for (const ImportedCurve& curve : import_curves(file).curves) layers.push_back(curve.layer);
+  EXPECT_EQ(layers, (std::vector<std::string>{"a_b", "a_b 2", "A_B 3", "a_b", longest,
+                                              longest.substr(2) + " 2", umlaut, small + " 2"}));
+}
+
 TEST(ExportCurves, BrepGivesEveryCubicOfTheCorpusBackInMillimetresOnly) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "curves.brep";
