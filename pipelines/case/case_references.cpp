@@ -198,7 +198,7 @@ void check_solids(const CaseFile& c, Findings& findings) {
   const auto solid = std::find(formats.begin(), formats.end(), "step-solid");
   if (solid == formats.end()) return;
   for (const CaseBeam& beam : c.beams)
-    if (!beam.section.radius && !beam.section.from_cad &&
+    if (!beam.rigid && !beam.section.radius && !beam.section.from_cad &&
         !(beam.section.profile && (beam.torsion || beam.torsion_by_drawing)))
       findings.error(child("output.cad.formats", solid - formats.begin()),
                      "is \"step-solid\", but the section of the beam " + in_quotes(beam.name) +

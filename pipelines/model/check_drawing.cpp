@@ -75,12 +75,17 @@ double thickness(const SectionOutline& outline) {
 }  // namespace
 
 void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>& beams, Findings& findings) {
+  const bool only_guides = std::ranges::all_of(beams, &CaseBeam::rigid);
   for (std::size_t i = 0; i < output.cad_formats.size(); ++i) {
-    const std::string& format = output.cad_formats[i];
+    const std::string &format = output.cad_formats[i], path = "output.cad.formats[" + std::to_string(i) + "]";
+    const bool solid = format == "step-solid", lines = format == "step-section-lines";
+    if (only_guides && (solid || lines))
+      findings.error(path, "is \"" + format +
+                               "\", but all beams are rigid guides, which have no sections; use \"step\" for "
+                               "the curves");
     for (const CaseBeam& beam : beams)
-      if (!beam.torsion &&
-          (format == "step-section-lines" || (format == "step-solid" && !beam.section.radius))) {
-        findings.error("output.cad.formats[" + std::to_string(i) + "]",
+      if (!beam.rigid && !beam.torsion && (lines || (solid && !beam.section.radius))) {
+        findings.error(path,
                        "is \"" + format + "\", but the beam \"" + beam.name +
                            "\" has no torsion, which orients its section; give it \"torsion\": true, or "
                            "use \"step\" for the curve");

@@ -232,6 +232,22 @@ TEST_F(CadOutputTest, ExportGivesTheCurveTheNameOfTheDrawing) {
   EXPECT_EQ(exported(), "rope");
 }
 
+TEST_F(CadOutputTest, GuidesHaveNoSolidNorSectionLines) {
+  ASSERT_EQ(run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
+                 "analysis.end_time=0.01", "--set",
+                 R"(beams=[{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 1, 0], [1, 1, 0]]}},
+                           {"name": "cable", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "torsion": true,
+                            "section": {"radius": 0.01},
+                            "material": {"density": 7200, "youngs_modulus": 20e6}}])",
+                 "--set", "supports[0].type=clamped", "--set",
+                 R"(output.cad={"formats": ["step-solid", "step-section-lines"], "times": [0]})"}),
+            0)
+      << messages;
+  const std::vector<ImportedCurve> rod = import_curves(results / "deformed_t0_solid.step").curves;
+  EXPECT_EQ(std::ranges::count_if(rod, &ImportedCurve::is_centre_line), 1);
+  EXPECT_EQ(import_curves(results / "deformed_t0_section_lines.step").curves.size(), 4u);
+}
+
 TEST_F(CadOutputTest, ASourceThatIsNoStepFileIsRefusedBeforeTheRun) {
   const std::string into_source = R"(output.cad={"formats": ["step-source"]})";
   EXPECT_EQ(run({"check", case_file.string(), "--set", into_source}), 2);
