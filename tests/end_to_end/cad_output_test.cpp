@@ -288,6 +288,8 @@ TEST_F(CadOutputTest, ExportOffersTheSameForms) {
   EXPECT_EQ(exported("material.igs", {"--parameter", "material", "--unit", "inch"}), 0) << messages;
   EXPECT_EQ(import_curves(directory.path() / "material.igs").unit, "inch");
   EXPECT_NEAR(only_curve(directory.path() / "material.igs").knots().end(), 1, 1e-15);
+  EXPECT_EQ(exported("x.igs", {"--schema", "ap242"}), 2);
+  EXPECT_NE(messages.find("--schema: is that of a STEP file"), std::string::npos) << messages;
   EXPECT_EQ(exported("x.step", {"--parameter", "arc"}), 2);
   EXPECT_NE(messages.find("material"), std::string::npos) << messages;
 }
