@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <variant>
 
 #include "nurbs/number_text.h"
 
@@ -91,6 +92,25 @@ void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>&
                            "use \"step\" for the curve");
         break;
       }
+  }
+}
+
+void check_source(const CaseOutput& output, const std::vector<CaseBeam>& beams, CadFiles& files,
+                  Findings& findings) {
+  const std::vector<std::string>& formats = output.cad_formats;
+  const auto source = std::find(formats.begin(), formats.end(), "step-source");
+  if (source == formats.end()) return;
+  const auto* const first = std::get_if<AxisFile>(&beams.front().axis.source);
+  for (const CaseBeam& beam : beams) {
+    const auto* const axis = std::get_if<AxisFile>(&beam.axis.source);
+    if (first && axis && axis->path == first->path &&
+        files.read(axis->path, findings).format == CadFormat::step)
+      continue;
+    findings.error("output.cad.formats[" + std::to_string(source - formats.begin()) + "]",
+                   "is \"step-source\", but the axis of the beam \"" + beam.name + "\" is not from " +
+                       (first && axis && axis != first ? "the same" : "a") +
+                       " STEP file; use \"step\" for the curve alone");
+    return;
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "cad_import/export_curves.h"
@@ -213,6 +215,36 @@ TEST_F(CadOutputTest, TheSourceGetsTheDeformedShapeInPlaceOfTheDrawnOne) {
   const ImportReport undeformed = import_curves(results / "deformed_t0_source.step");
   EXPECT_EQ(undeformed.curves.at(1).curve.control_points().cols(), 5);
   EXPECT_LE((middle(undeformed.curves[1].curve) - middle(before.curves[1].curve)).norm(), 1e-12);
+}
+
+/// An archive of one file, not compressed.
+std::string zipped(const std::string& text) {
+  const auto little_endian = [](std::size_t value, int count) {
+    std::string bytes;
+    for (int i = 0; i < count; ++i, value >>= 8) bytes += static_cast<char>(value & 0xFF);
+    return bytes;
+  };
+  return "PK\x03\x04" + little_endian(20, 14) + little_endian(text.size(), 4) +
+         little_endian(text.size(), 4) + little_endian(6, 4) + "a.step" + text;
+}
+
+TEST_F(CadOutputTest, ThePackedSourceIsWrittenUnpacked) {
+  const std::filesystem::path step = drawing(directory);
+  const auto run_into = [&](const std::filesystem::path& file) {
+    std::ifstream content(file, std::ios::binary);
+    directory.write("drawing.stpz", zipped({std::istreambuf_iterator<char>(content), {}}));
+    return run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
+                "analysis.end_time=0.01", "--set",
+                R"(beams[0].axis={"file": "drawing.stpz", "curve": "cable"})", "--set",
+                R"(output.cad={"formats": ["step-source"], "times": [0]})"});
+  };
+  ASSERT_EQ(run_into(step), 0) << messages;
+  EXPECT_EQ(import_curves(results / "deformed_t0_source.step").curves.size(), 2u);
+  const std::filesystem::path iges = directory.path() / "drawing.igs";
+  EXPECT_TRUE(
+      export_curves(iges, {{"cable", import_curves(step).curves.at(1).curve}}, LengthUnit::metre).empty());
+  EXPECT_EQ(run_into(iges), 2);
+  EXPECT_NE(messages.find("is not from a STEP file"), std::string::npos) << messages;
 }
 
 TEST_F(CadOutputTest, ExportGivesTheCurveTheNameOfTheDrawing) {
