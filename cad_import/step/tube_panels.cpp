@@ -13,34 +13,38 @@ Node node_at(const NurbsCurve& span, double u) {
   return {.parameter = u, .centre = d.col(0), .rate = d.col(1), .acceleration = d.col(2)};
 }
 
-/// How far the wall of the panel is from where it should be, per radius: at most, of places along and round
-/// it.
-double error_of(const NurbsCurve& span, Panel panel, double radius) {
+/// A place on the panel, a part of the way along it: of the section (x across, y along).
+Eigen::Vector3d place_on(const Panel& panel, double part, double x, double y) {
+  const auto [a, b, c, d] = panel.poles(x, y);
+  const double v = part, w = 1 - part;
+  return w * w * w * a + 3 * v * w * (w * b + v * c) + v * v * v * d;
+}
+
+/// Whether the panel's wall, and places along it, are where they should be: looked at along and round it.
+bool is_near(const NurbsCurve& span, Panel panel, double radius) {
+  constexpr double near = 1e-7, even = 1e-6;  // of the radius, of the panel
   constexpr int along = 4, round = 8;
   panel.from.set_section(panel.from.tangent().unitOrthogonal());
   panel.to.set_section(carried(panel.from.across, panel.from, panel.to));
-  double largest = 0;
   for (int i = 1; i < along; ++i) {
-    const double v = static_cast<double>(i) / along;
-    const Node there = node_at(span, std::lerp(panel.from.parameter, panel.to.parameter, v));
+    const double part = static_cast<double>(i) / along;
+    const Node there = node_at(span, std::lerp(panel.from.parameter, panel.to.parameter, part));
+    if ((place_on(panel, part, 0, 0) - there.centre).norm() > even * chord(panel)) return false;
     for (int k = 0; k < round; ++k) {
       const double angle = 2 * std::numbers::pi * k / round;
-      const auto [a, b, c, d] = panel.poles(radius * std::cos(angle), radius * std::sin(angle));
-      const double w = 1 - v;
-      const Eigen::Vector3d wall = w * w * w * a + 3 * v * w * (w * b + v * c) + v * v * v * d;
+      const Eigen::Vector3d wall = place_on(panel, part, radius * std::cos(angle), radius * std::sin(angle));
       const double distance = there.tangent().cross(wall - there.centre).norm();
-      largest = std::max(largest, std::abs(distance / radius - 1));
+      if (std::abs(distance - radius) > near * radius) return false;
     }
   }
-  return largest;
+  return true;
 }
 
 /// The panel, or its halves, their halves ... that are near to the tube.
 void add_near(const NurbsCurve& span, const Panel& panel, double radius, int halvings,
               std::vector<Panel>& panels) {
-  constexpr double near = 1e-7;
   constexpr int most_halvings = 10;
-  if (halvings == most_halvings || error_of(span, panel, radius) <= near) return panels.push_back(panel);
+  if (halvings == most_halvings || is_near(span, panel, radius)) return panels.push_back(panel);
   const Node middle = node_at(span, 0.5 * (panel.from.parameter + panel.to.parameter));
   add_near(span, {panel.from, middle}, radius, halvings + 1, panels);
   add_near(span, {middle, panel.to}, radius, halvings + 1, panels);

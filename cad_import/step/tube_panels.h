@@ -64,8 +64,9 @@ inline double chord(const Panel& panel) { return (panel.to.centre - panel.from.c
 /// How far from a corner sections lean, at most.
 inline double reach_of_lean(double lean, double radius) { return 6 * radius * lean; }
 
-/// Panels along the spine, for a section of this radius: each is short enough that its wall, round a section
-/// that does not lean, is within 1e-7 of the radius where it is looked at, and short where it leans.
+/// Panels along the spine, for a section of this radius: short enough that walls are within 1e-7 of the
+/// radius, but where they lean, and go along evenly enough for OpenCASCADE to integrate over them; shorter
+/// where they lean.
 Panels panels_of(const Spine& spine, double radius);
 
 }  // namespace nurbeam::tubes

@@ -436,7 +436,10 @@ TEST(ExportSolids, WallsAreAsNearAsIsSaidHoweverTheCurveBends) {
       EXPECT_LE(error_of_walls(shape, bar, radius), 1e-6 * radius) << down;
     }
   const NurbsCurve ring = smooth_nurbs(wavy_ring(24, 0), CurveParameter::free, 1e-12).curve;
-  for (const NurbsCurve& curve : {cable(1), cable(20, 0.01), ring}) {
+  const Eigen::Matrix4d straight = cantilever(1e-5).control_points();
+  const NurbsCurve uneven(cantilever(1e-5).knots(),
+                          straight * Eigen::Vector4d(1, 0.5, 0.4, 1.5).asDiagonal());
+  for (const NurbsCurve& curve : {cable(1), cable(20, 0.01), ring, uneven}) {
     ASSERT_TRUE(export_solids(file, {{{"curve", curve}, 0.02}}, LengthUnit::metre).empty());
     EXPECT_LE(error_of_walls(second_reading(file), curve, 0.02), 1e-6 * 0.02);
   }
