@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "cad_import/dxf/layer_names.h"
+
 namespace nurbeam {
 namespace {
 
@@ -81,14 +83,6 @@ void add_variable(DxfText& out, std::string_view name, int code, std::string_vie
 }
 
 // ------------------------------------------------------------------------------------------------ tables
-
-std::string layer_of(const NamedCurve& curve) {
-  constexpr std::string_view forbidden = "<>/\\\":;?*|=,`";
-  std::string layer = curve.name.empty() ? "0" : curve.name;
-  for (char& c : layer)
-    if (forbidden.find(c) != std::string_view::npos) c = '_';
-  return layer;
-}
 
 /// What a symbol table holds: entries of one kind, and the pairs that each of them has.
 struct Table {
@@ -188,17 +182,18 @@ void add_line(DxfText& out, const Eigen::Matrix3Xd& points) {
   out.add(11, Eigen::Vector3d(points.col(1)));
 }
 
-void add_entity(DxfText& out, const NamedCurve& named, double per_metre, std::string_view model_space) {
-  const Eigen::Matrix3Xd points = per_metre * named.curve.control_points().colwise().hnormalized();
-  const bool is_line = named.curve.degree() == 1 && points.cols() == 2;
+void add_entity(DxfText& out, const NurbsCurve& curve, const std::string& layer, double per_metre,
+                std::string_view model_space) {
+  const Eigen::Matrix3Xd points = per_metre * curve.control_points().colwise().hnormalized();
+  const bool is_line = curve.degree() == 1 && points.cols() == 2;
   out.add(0, is_line ? "LINE" : "SPLINE");
   out.identify(model_space);
   out.add(100, "AcDbEntity");
-  out.add(8, layer_of(named));
+  out.add(8, layer);
   if (is_line)
     add_line(out, points);
   else
-    add_spline(out, named.curve, points);
+    add_spline(out, curve, points);
 }
 
 void add_objects(DxfText& out) {
@@ -232,17 +227,17 @@ std::string header(const DxfUnit& unit, const std::string& next_handle) {
 
 std::string dxf_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
   const DxfUnit in_file = dxf_unit(unit);
+  const std::vector<std::string> layer_of = layer_names(curves);
   std::vector<std::string> layers{"0"};
-  for (const NamedCurve& curve : curves)
-    if (const std::string layer = layer_of(curve);
-        std::find(layers.begin(), layers.end(), layer) == layers.end())
-      layers.push_back(layer);
+  for (const std::string& layer : layer_of)
+    if (std::find(layers.begin(), layers.end(), layer) == layers.end()) layers.push_back(layer);
   DxfText out;
   begin_section(out, "CLASSES");
   out.add(0, "ENDSEC");
   const std::string model_space = add_tables(out, layers);
   begin_section(out, "ENTITIES");
-  for (const NamedCurve& curve : curves) add_entity(out, curve, in_file.per_metre, model_space);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    add_entity(out, curves[i].curve, layer_of[i], in_file.per_metre, model_space);
   out.add(0, "ENDSEC");
   add_objects(out);
   out.add(0, "EOF");

@@ -8,8 +8,8 @@
 namespace nurbeam {
 
 /// The text of a DXF drawing (AutoCAD 2007, AC1021, in UTF-8) with each curve as a SPLINE, a LINE where it is
-/// one, on a layer of its name: entities of DXF have no names. What a layer's name must not hold becomes "_",
-/// without a name it is layer "0". Every double is written so that it reads back as itself.
+/// one, on a layer of its name (layer_names()): entities of DXF have no names. Every double is written so
+/// that it reads back as itself.
 std::string dxf_text(const std::vector<NamedCurve>& curves, LengthUnit unit);
 
 }  // namespace nurbeam

@@ -1,5 +1,6 @@
 #include "cad_import/iges/iges_text.h"
 
+#include <Geom_BSplineCurve.hxx>
 #include <IGESBasic_Name.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESData_BasicEditor.hxx>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 namespace nurbeam {
 namespace {
@@ -74,6 +76,9 @@ Handle(IGESGeom_BSplineCurve) entity126(const NurbsCurve& curve, double units_pe
 }
 
 void add(const NamedCurve& named, double units_per_metre, IGESData_IGESModel& model) {
+  if (const int degree = named.curve.degree(), most = Geom_BSplineCurve::MaxDegree(); degree > most)
+    throw std::runtime_error("the curve '" + named.name + "' is of degree " + std::to_string(degree) +
+                             ", which few programs read; the highest is " + std::to_string(most));
   const Handle(IGESGeom_BSplineCurve) entity = entity126(named.curve, units_per_metre);
   model.AddEntity(entity);
   if (named.name.empty()) return;

@@ -234,6 +234,7 @@ ImportReport read_cad_file(const std::filesystem::path& file, const std::string&
                            double tolerance, const ReadFile& read_other) {
   ImportReport report;
   report.file = file.string();
+  report.format = format;
   be_silent();
   try {
     OCC_CATCH_SIGNALS

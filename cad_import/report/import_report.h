@@ -1,8 +1,10 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cad_import/report/diagnostic.h"
+#include "cad_import/report/format.h"
 #include "nurbs/nurbs_curve.h"
 
 namespace nurbeam {
@@ -30,7 +32,8 @@ struct ImportedCurve {
 /// The curves found in a file, and a Diagnostic for every entity skipped or altered.
 struct ImportReport {
   std::string file;
-  std::string unit;  ///< the file's length unit as declared: "mm", "m", "inch", ...
+  std::optional<CadFormat> format = {};  ///< unpacked, where it is known
+  std::string unit;                      ///< the file's length unit as declared: "mm", "m", "inch", ...
   double unit_in_metres = 0;
   double resolution =
       0;  ///< distance within which points of the file are one, as declared [m]; 0: undeclared

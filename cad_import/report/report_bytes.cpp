@@ -54,11 +54,20 @@ Diagnostic read_diagnostic(ByteReader& in) {
   return {static_cast<Severity>(severity), std::move(where), in.text()};
 }
 
+constexpr int no_format = -1;
+
+std::optional<CadFormat> read_format(ByteReader& in) {
+  const int format = in.number<int>();
+  if (format < no_format || format > static_cast<int>(CadFormat::brep)) ByteReader::fail();
+  return format == no_format ? std::nullopt : std::optional(static_cast<CadFormat>(format));
+}
+
 }  // namespace
 
 std::string to_bytes(const ImportReport& report) {
   ByteWriter out;
   out.text(report.file);
+  out.number(report.format ? static_cast<int>(*report.format) : no_format);
   out.text(report.unit);
   out.number(report.unit_in_metres);
   out.number(report.resolution);
@@ -73,6 +82,7 @@ ImportReport report_from_bytes(const std::string& bytes) {
   ByteReader in(bytes);
   ImportReport report;
   report.file = in.text();
+  report.format = read_format(in);
   report.unit = in.text();
   report.unit_in_metres = in.number<double>();
   report.resolution = in.number<double>();

@@ -20,6 +20,7 @@
 #include <TopoDS_Solid.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gp_Ax2.hxx>
 #include <gp_Ax22d.hxx>
@@ -41,18 +42,6 @@ namespace {
 using tubes::Node;
 using tubes::Panel;
 using tubes::Panels;
-
-/// A direction carried from one place to the next with the least turn about the tangent (double reflection:
-/// Wang and others, 2008).
-Eigen::Vector3d carried(const Eigen::Vector3d& across, const Node& from, const Node& to) {
-  const auto mirrored = [](const Eigen::Vector3d& v, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
-    return v - 2 / normal.squaredNorm() * normal.dot(v) * normal;
-  };
-  const Eigen::Vector3d chord = to.centre - from.centre;
-  const Eigen::Vector3d second = to.tangent() - mirrored(from.tangent(), chord);
-  const Eigen::Vector3d half = mirrored(across, chord);
-  return second.norm() > 0 ? mirrored(half, second) : half;
-}
 
 /// A direction beyond a corner: its image in the mirror that is the mitre.
 Eigen::Vector3d beyond_corner(const Eigen::Vector3d& across, const Node& before, const Node& after) {
@@ -80,7 +69,7 @@ void add_sections(Panels& panels, const Spine& spine) {
     if (i > 0)
       from.set_section(is_corner(i) ? beyond_corner(all[i - 1].to.across, all[i - 1].to, from)
                                     : all[i - 1].to.across);
-    to.set_section(carried(from.across, from, to));
+    to.set_section(tubes::carried(from.across, from, to));
   }
   const Node &first = all.front().from, &last = all.back().to;
   const Eigen::Vector3d begun = first.across, axis = first.tangent();
@@ -136,19 +125,6 @@ void lean_into_mitres(std::span<Panel> panels, const Run& run, double radius) {
   }
 }
 
-/// A pole of the section (x across, y along) and its derivative in the parameter.
-Eigen::Vector3d pole(const Node& node, double x, double y) {
-  return node.centre + x * node.across + y * node.along + node.lean.dot(Eigen::Vector2d(x, y)) * node.forward;
-}
-Eigen::Vector3d pole_rate(const Node& node, double x, double y) {
-  const Eigen::Vector3d t = node.tangent(), t_rate = node.tangent_rate();
-  const Eigen::Vector3d across_rate = -node.across.dot(t_rate) * t + node.twist * node.along;
-  const Eigen::Vector3d along_rate = -node.along.dot(t_rate) * t - node.twist * node.across;
-  const Eigen::Vector2d place(x, y);
-  return node.rate + x * across_rate + y * along_rate + node.lean_rate.dot(place) * t +
-         node.lean.dot(place) * t_rate;
-}
-
 /// Cubics along the curve; round it circles of degree 6 without inner knots, over which OpenCASCADE
 /// integrates well.
 Handle(Geom_BSplineSurface) surface_of(std::span<const Panel> panels, double radius) {
@@ -160,13 +136,10 @@ Handle(Geom_BSplineSurface) surface_of(std::span<const Panel> panels, double rad
     const gp_Pnt2d section = circle.Pole(k);
     const double x = section.X(), y = section.Y();
     for (int i = 0; i < count; ++i) {
-      const Node &from = panels[i].from, &to = panels[i].to;
-      const double third = (to.parameter - from.parameter) / 3;
-      poles(k, 3 * i + 1) = in_millimetres(pole(from, x, y));
-      poles(k, 3 * i + 2) = in_millimetres(pole(from, x, y) + third * pole_rate(from, x, y));
-      poles(k, 3 * i + 3) = in_millimetres(pole(to, x, y) - third * pole_rate(to, x, y));
+      const std::array<Eigen::Vector3d, 4> own = panels[i].poles(x, y);
+      for (int j = 0; j < 3; ++j) poles(k, 3 * i + j + 1) = in_millimetres(own[j]);
     }
-    poles(k, 3 * count + 1) = in_millimetres(pole(panels.back().to, x, y));
+    poles(k, 3 * count + 1) = in_millimetres(panels.back().to.place(x, y));
     for (int i = 1; i <= 3 * count + 1; ++i) weights(k, i) = circle.Weight(k);
   }
   TColStd_Array1OfReal angles(1, 2), knots(1, count + 1);

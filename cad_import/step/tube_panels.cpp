@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace nurbeam::tubes {
@@ -12,30 +13,47 @@ Node node_at(const NurbsCurve& span, double u) {
   return {.parameter = u, .centre = d.col(0), .rate = d.col(1), .acceleration = d.col(2)};
 }
 
-/// How far the cubic of a panel is from the curve, midway.
-double deviation(const NurbsCurve& span, const Panel& panel) {
-  const double h = panel.to.parameter - panel.from.parameter;
-  const Eigen::Vector3d middle =
-      0.5 * (panel.from.centre + panel.to.centre) + h / 8 * (panel.from.rate - panel.to.rate);
-  return (middle - span.point(panel.from.parameter + 0.5 * h)).norm();
+/// A place on the panel, a part of the way along it: of the section (x across, y along).
+Eigen::Vector3d place_on(const Panel& panel, double part, double x, double y) {
+  const auto [a, b, c, d] = panel.poles(x, y);
+  const double v = part, w = 1 - part;
+  return w * w * w * a + 3 * v * w * (w * b + v * c) + v * v * v * d;
 }
 
-/// So many panels that each turns little and is near to the curve.
-std::vector<Panel> panels_of(const NurbsCurve& span, double radius) {
-  constexpr double most_turn = 0.03;  // [rad]
-  constexpr int most = 1024;
-  const double a = span.knots().start(), length = span.knots().end() - a;
-  for (int count = 1;; count *= 2) {
-    std::vector<Panel> panels;
-    bool fine = true;
-    for (int i = 0; i < count; ++i) {
-      panels.push_back({node_at(span, a + length * i / count), node_at(span, a + length * (i + 1) / count)});
-      const Node &from = panels.back().from, &to = panels.back().to;
-      const double turn = std::max(from.tangent_rate().norm(), to.tangent_rate().norm()) * length / count;
-      fine = fine && turn <= most_turn && deviation(span, panels.back()) <= 1e-8 * radius;
+/// Whether the panel's wall, and places along it, are where they should be: looked at along and round it.
+bool is_near(const NurbsCurve& span, Panel panel, double radius) {
+  constexpr double near = 1e-7, even = 1e-6;  // of the radius, of the panel
+  constexpr int along = 4, round = 8;
+  panel.from.set_section(panel.from.tangent().unitOrthogonal());
+  panel.to.set_section(carried(panel.from.across, panel.from, panel.to));
+  for (int i = 1; i < along; ++i) {
+    const double part = static_cast<double>(i) / along;
+    const Node there = node_at(span, std::lerp(panel.from.parameter, panel.to.parameter, part));
+    if ((place_on(panel, part, 0, 0) - there.centre).norm() > even * chord(panel)) return false;
+    for (int k = 0; k < round; ++k) {
+      const double angle = 2 * std::numbers::pi * k / round;
+      const Eigen::Vector3d wall = place_on(panel, part, radius * std::cos(angle), radius * std::sin(angle));
+      const double distance = there.tangent().cross(wall - there.centre).norm();
+      if (std::abs(distance - radius) > near * radius) return false;
     }
-    if (fine || count >= most) return panels;
   }
+  return true;
+}
+
+/// The panel, or its halves, their halves ... that are near to the tube.
+void add_near(const NurbsCurve& span, const Panel& panel, double radius, int halvings,
+              std::vector<Panel>& panels) {
+  constexpr int most_halvings = 10;
+  if (halvings == most_halvings || is_near(span, panel, radius)) return panels.push_back(panel);
+  const Node middle = node_at(span, 0.5 * (panel.from.parameter + panel.to.parameter));
+  add_near(span, {panel.from, middle}, radius, halvings + 1, panels);
+  add_near(span, {middle, panel.to}, radius, halvings + 1, panels);
+}
+
+std::vector<Panel> panels_of(const NurbsCurve& span, double radius) {
+  std::vector<Panel> panels;
+  add_near(span, {node_at(span, span.knots().start()), node_at(span, span.knots().end())}, radius, 0, panels);
+  return panels;
 }
 
 /// By how much a section leans over into the mitre of a corner, per its distance across: the tangent of half
@@ -84,6 +102,35 @@ std::vector<std::vector<Panel>> panels_of(const Run& run, double radius) {
 }
 
 }  // namespace
+
+Eigen::Vector3d Node::place(double x, double y) const {
+  return centre + x * across + y * along + lean.dot(Eigen::Vector2d(x, y)) * forward;
+}
+
+Eigen::Vector3d Node::place_rate(double x, double y) const {
+  const Eigen::Vector3d t = tangent(), t_rate = tangent_rate();
+  const Eigen::Vector3d across_rate = -across.dot(t_rate) * t + twist * along;
+  const Eigen::Vector3d along_rate = -along.dot(t_rate) * t - twist * across;
+  const Eigen::Vector2d place(x, y);
+  return rate + x * across_rate + y * along_rate + lean_rate.dot(place) * t + lean.dot(place) * t_rate;
+}
+
+std::array<Eigen::Vector3d, 4> Panel::poles(double x, double y) const {
+  const double third = (to.parameter - from.parameter) / 3;
+  return {from.place(x, y), from.place(x, y) + third * from.place_rate(x, y),
+          to.place(x, y) - third * to.place_rate(x, y), to.place(x, y)};
+}
+
+/// By double reflection (Wang and others, 2008).
+Eigen::Vector3d carried(const Eigen::Vector3d& across, const Node& from, const Node& to) {
+  const auto mirrored = [](const Eigen::Vector3d& v, const Eigen::Vector3d& normal) -> Eigen::Vector3d {
+    return v - 2 / normal.squaredNorm() * normal.dot(v) * normal;
+  };
+  const Eigen::Vector3d chord = to.centre - from.centre;
+  const Eigen::Vector3d second = to.tangent() - mirrored(from.tangent(), chord);
+  const Eigen::Vector3d half = mirrored(across, chord);
+  return second.norm() > 0 ? mirrored(half, second) : half;
+}
 
 Panels panels_of(const Spine& spine, double radius) {
   constexpr std::size_t most_in_face = 16;

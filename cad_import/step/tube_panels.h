@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -29,12 +30,21 @@ struct Node {
     along = tangent().cross(across);
     forward = tangent();
   }
+  /// A place of the section (x across, y along) and its derivative in the parameter.
+  Eigen::Vector3d place(double x, double y) const;
+  Eigen::Vector3d place_rate(double x, double y) const;
 };
+
+/// A direction carried from one node to the next with the least turn about the tangent.
+Eigen::Vector3d carried(const Eigen::Vector3d& across, const Node& from, const Node& to);
 
 /// A piece of the surface, between two nodes of one span; whether its sections lean over into a mitre.
 struct Panel {
   Node from, to;
   bool leans = false;
+
+  /// The poles of the cubic along which a place of the section goes.
+  std::array<Eigen::Vector3d, 4> poles(double x, double y) const;
 };
 
 /// The panels of all spans, and the numbers of those that begin a face: each is of one span, and a panel that
@@ -54,8 +64,9 @@ inline double chord(const Panel& panel) { return (panel.to.centre - panel.from.c
 /// How far from a corner sections lean, at most.
 inline double reach_of_lean(double lean, double radius) { return 6 * radius * lean; }
 
-/// Panels along the spine, for a section of this radius: each turns little, is near to the curve, and is
-/// short where it leans.
+/// Panels along the spine, for a section of this radius: short enough that walls are within 1e-7 of the
+/// radius, but where they lean, and go along evenly enough for OpenCASCADE to integrate over them; shorter
+/// where they lean.
 Panels panels_of(const Spine& spine, double radius);
 
 }  // namespace nurbeam::tubes

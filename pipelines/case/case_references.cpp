@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 
-#include "cad_import/files/cad_format.h"
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_connector.h"
 #include "pipelines/diagnostics/closest_name.h"
@@ -198,7 +196,7 @@ void check_solids(const CaseFile& c, Findings& findings) {
   const auto solid = std::find(formats.begin(), formats.end(), "step-solid");
   if (solid == formats.end()) return;
   for (const CaseBeam& beam : c.beams)
-    if (!beam.section.radius && !beam.section.from_cad &&
+    if (!beam.rigid && !beam.section.radius && !beam.section.from_cad &&
         !(beam.section.profile && (beam.torsion || beam.torsion_by_drawing)))
       findings.error(child("output.cad.formats", solid - formats.begin()),
                      "is \"step-solid\", but the section of the beam " + in_quotes(beam.name) +
@@ -237,29 +235,6 @@ void check_brep(const CaseFile& c, Findings& findings) {
                                           "millimetres; use \"mm\", or another format");
 }
 
-bool is_step_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string head(1000, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return format_of(head) == CadFormat::step;
-}
-
-void check_source(const CaseFile& c, Findings& findings) {
-  const std::vector<std::string>& formats = c.output.cad_formats;
-  const auto source = std::find(formats.begin(), formats.end(), "step-source");
-  if (source == formats.end()) return;
-  const auto* const first = std::get_if<AxisFile>(&c.beams.front().axis.source);
-  for (const CaseBeam& beam : c.beams) {
-    const auto* const axis = std::get_if<AxisFile>(&beam.axis.source);
-    if (first && axis && axis->path == first->path && is_step_file(axis->path)) continue;
-    findings.error(child("output.cad.formats", source - formats.begin()),
-                   "is \"step-source\", but the axis of the beam " + in_quotes(beam.name) + " is not from " +
-                       (first && axis && axis != first ? "the same" : "a") +
-                       " STEP file; use \"step\" for the curve alone");
-    return;
-  }
-}
-
 }  // namespace
 
 void check_across(const Json& json, const CaseFile& case_file, Findings& findings) {
@@ -271,7 +246,6 @@ void check_across(const Json& json, const CaseFile& case_file, Findings& finding
   check_solids(case_file, findings);
   check_effects(json, case_file, findings);
   check_brep(case_file, findings);
-  check_source(case_file, findings);
 }
 
 }  // namespace nurbeam

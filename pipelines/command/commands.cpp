@@ -100,6 +100,8 @@ int export_command(const Arguments& arguments, Streams streams) {
   const LengthUnit unit = parse_length_unit(arguments.value("--unit", "mm"));
   const CurveParameter parameter = curve_parameter(arguments.value("--parameter", "free"));
   const StepSchema schema = step_schema(arguments.value("--schema", "ap214"));
+  if (arguments.has("--schema") && written_format(file) != CadFormat::step)
+    throw UsageError("--schema: is that of a STEP file, which " + file + " is not; name it .step or .stp");
   const auto [stored_time, curves] = read_results(arguments.positional[0], time, parameter);
   std::vector<Diagnostic> found;
   if (arguments.has("--solid")) {

@@ -509,6 +509,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   ResolvedCase resolved = resolve_case(case_file, files, findings);
   const std::vector<BeamAxis> axes = axes_of(resolved, files, findings);
   if (!findings.has_errors()) check_guides(resolved, findings);
+  if (!findings.has_errors()) check_source(case_file.output, resolved.beams, files, findings);
   if (!findings.has_errors()) give_asked_torsion(resolved, findings);
   if (findings.has_errors()) return {};
 

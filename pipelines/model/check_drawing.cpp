@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <variant>
 
 #include "nurbs/number_text.h"
 
@@ -75,17 +76,41 @@ double thickness(const SectionOutline& outline) {
 }  // namespace
 
 void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>& beams, Findings& findings) {
+  const bool only_guides = std::ranges::all_of(beams, &CaseBeam::rigid);
   for (std::size_t i = 0; i < output.cad_formats.size(); ++i) {
-    const std::string& format = output.cad_formats[i];
+    const std::string &format = output.cad_formats[i], path = "output.cad.formats[" + std::to_string(i) + "]";
+    const bool solid = format == "step-solid", lines = format == "step-section-lines";
+    if (only_guides && (solid || lines))
+      findings.error(path, "is \"" + format +
+                               "\", but all beams are rigid guides, which have no sections; use \"step\" for "
+                               "the curves");
     for (const CaseBeam& beam : beams)
-      if (!beam.torsion &&
-          (format == "step-section-lines" || (format == "step-solid" && !beam.section.radius))) {
-        findings.error("output.cad.formats[" + std::to_string(i) + "]",
+      if (!beam.rigid && !beam.torsion && (lines || (solid && !beam.section.radius))) {
+        findings.error(path,
                        "is \"" + format + "\", but the beam \"" + beam.name +
                            "\" has no torsion, which orients its section; give it \"torsion\": true, or "
                            "use \"step\" for the curve");
         break;
       }
+  }
+}
+
+void check_source(const CaseOutput& output, const std::vector<CaseBeam>& beams, CadFiles& files,
+                  Findings& findings) {
+  const std::vector<std::string>& formats = output.cad_formats;
+  const auto source = std::find(formats.begin(), formats.end(), "step-source");
+  if (source == formats.end()) return;
+  const auto* const first = std::get_if<AxisFile>(&beams.front().axis.source);
+  for (const CaseBeam& beam : beams) {
+    const auto* const axis = std::get_if<AxisFile>(&beam.axis.source);
+    if (first && axis && axis->path == first->path &&
+        files.read(axis->path, findings).format == CadFormat::step)
+      continue;
+    findings.error("output.cad.formats[" + std::to_string(source - formats.begin()) + "]",
+                   "is \"step-source\", but the axis of the beam \"" + beam.name + "\" is not from " +
+                       (first && axis && axis != first ? "the same" : "a") +
+                       " STEP file; use \"step\" for the curve alone");
+    return;
   }
 }
 

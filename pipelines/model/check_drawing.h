@@ -3,6 +3,7 @@
 
 #include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/model/cad_files.h"
 
 namespace nurbeam {
 
@@ -18,6 +19,10 @@ void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model,
 
 /// Reports formats of CAD files that draw sections which nothing orients, as those of beams without torsion.
 void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>& beams, Findings& findings);
+
+/// Reports where deformed shapes are to go into their source, and the axes are not all from one STEP file.
+void check_source(const CaseOutput& output, const std::vector<CaseBeam>& beams, CadFiles& files,
+                  Findings& findings);
 
 /// Warns of beams that no theory of beams is for: shorter than twice their sections are thick, or so soft
 /// that their own weight strains them by a tenth. A wrong unit of a number makes such.

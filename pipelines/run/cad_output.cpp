@@ -116,8 +116,10 @@ void CadOutput::flush() {
 std::vector<Diagnostic> CadOutput::write_solids(const Snapshot& frame,
                                                 const std::filesystem::path& file) const {
   std::vector<NamedSolid> solids;
-  for (NamedCurve& axis : curves(frame, CurveParameter::free)) {
-    const std::size_t b = solids.size();
+  std::vector<NamedCurve> axes = curves(frame, CurveParameter::free);
+  for (std::size_t b = 0; b < axes.size(); ++b) {
+    if (built_.model.beams[b].rigid) continue;
+    NamedCurve& axis = axes[b];
     if (const auto& drawn = built_.sources[b].profile) {
       if (const auto obstacle = sweeping_obstacle(frame.beams[b]))
         return {not_swept(file, built_.model.beams[b].name, *obstacle)};
@@ -135,6 +137,7 @@ std::vector<Diagnostic> CadOutput::write_section_lines(const Snapshot& frame,
                                                        const std::filesystem::path& file) const {
   std::vector<NamedCurve> lines;
   for (std::size_t b = 0; b < frame.beams.size(); ++b) {
+    if (built_.model.beams[b].rigid) continue;
     const std::string& name = built_.model.beams[b].name;
     if (const auto obstacle = sweeping_obstacle(frame.beams[b])) return {not_swept(file, name, *obstacle)};
     const std::vector<Eigen::Vector2d> places = section_places(built_, b);

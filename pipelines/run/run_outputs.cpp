@@ -1,7 +1,6 @@
 #include "pipelines/run/run_outputs.h"
 
 #include <algorithm>
-#include <ctime>
 
 #include "nurbs/number_text.h"
 #include "pipelines/run/model_digest.h"
@@ -10,12 +9,10 @@ namespace nurbeam {
 
 namespace {
 
-/// Processor time between two restart points, at least: what would have to be computed anew.
+/// Between two restart points, at least: what would have to be computed anew.
 constexpr std::chrono::seconds restart_interval{2};
-
-std::chrono::duration<double> processor_time() {
-  return std::chrono::duration<double>(static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
-}
+/// And this many times what the last one took to write.
+constexpr int least_rest = 20;
 
 ResultsWriter results_writer(const std::string& title, const BuiltModel& built,
                              const std::filesystem::path& directory, const Checkpoint* from) {
@@ -38,8 +35,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       model_(model_digest(case_file, built)),
       results_(results_writer(case_file.name, built, directory, from)),
       cad_(case_file, built, directory, from ? from->snapshots : 0),
-      last_restart_(processor_time()),
-      next_look_(Clock::now() + restart_interval),
+      next_restart_(Clock::now() + restart_interval),
       pulls_(built.model) {
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
@@ -109,13 +105,7 @@ void RunOutputs::write_series(const std::string& name, const std::vector<Snapsho
   });
 }
 
-// The clock of the processor is slow to read; it goes no faster than the other.
-bool RunOutputs::checkpoint_due() {
-  if (Clock::now() < next_look_) return false;
-  const std::chrono::duration<double> left = last_restart_ + restart_interval - processor_time();
-  next_look_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(left);
-  return left.count() <= 0;
-}
+bool RunOutputs::checkpoint_due() const { return Clock::now() >= next_restart_; }
 
 void RunOutputs::write(Checkpoint point) {
   if (!checkpoint_due()) {
@@ -123,10 +113,13 @@ void RunOutputs::write(Checkpoint point) {
     return;
   }
   timed([&] {
+    cad_.flush();  // a run that goes on from here has what came before
+    const auto start = Clock::now();
     results_.close_chunk();
     if (paraview_) paraview_->write_index();
-    cad_.flush();  // a run that goes on from here has what came before
     put(std::move(point));
+    const auto end = Clock::now();
+    next_restart_ = end + std::max<Clock::duration>(restart_interval, least_rest * (end - start));
   });
 }
 
@@ -134,8 +127,6 @@ void RunOutputs::put(Checkpoint point) {
   point.inputs = inputs_;
   point.model = model_;
   write_checkpoint(directory_ / "restart.nc", std::move(point));
-  last_restart_ = processor_time();
-  next_look_ = Clock::now() + restart_interval;
   last_point_.reset();
 }
 

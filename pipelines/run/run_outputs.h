@@ -36,7 +36,7 @@ class RunOutputs {
   /// Writes frames as a ParaView series NAME.pvd.
   void write_series(const std::string& name, const std::vector<Snapshot>& local);
   /// Whether the last restart point is old enough for another.
-  bool checkpoint_due();
+  bool checkpoint_due() const;
   /// Puts all frames so far, and the point, on the disk: at once where it is due, else, at the end of a run,
   /// with finish().
   void write(Checkpoint point);
@@ -69,9 +69,8 @@ class RunOutputs {
   ResultsWriter results_;
   CadOutput cad_;
   std::optional<ParaviewSeries> paraview_;
-  std::chrono::duration<double> last_restart_;  // in processor time
-  Clock::time_point next_look_;                 // before which no restart point is due
-  std::optional<Checkpoint> last_point_;        // for finish()
+  Clock::time_point next_restart_;        // before which no restart point is due
+  std::optional<Checkpoint> last_point_;  // for finish()
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
   Mismatch mismatch_;

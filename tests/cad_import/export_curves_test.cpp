@@ -261,6 +261,27 @@ TEST(ExportCurves, DxfLayersHaveNoForbiddenLetters) {
   EXPECT_EQ(report.curves[2].layer, "Drahtseil \xC3\x84");
 }
 
+TEST(ExportCurves, DxfLayersOfDifferentNamesDiffer) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "curves.dxf";
+  const std::string longest(255, 'x'),
+      umlaut =
+          "Stra\xC3\x9F"
+          "e \xC3\x84",
+      small =
+          "stra\xC3\x9F"
+          "e \xC3\xA4";
+  std::vector<NamedCurve> curves;
+  for (const std::string& name : {std::string("a;b"), std::string("a_b"), std::string("A_B"),
+                                  std::string("a;b"), longest + "y", longest + "z", umlaut, small})
+    curves.push_back({name, quarter_circle(1)});
+  ASSERT_TRUE(export_curves(file, curves, LengthUnit::metre).empty());
+  std::vector<std::string> layers;
+  for (const ImportedCurve& curve : import_curves(file).curves) layers.push_back(curve.layer);
+  EXPECT_EQ(layers, (std::vector<std::string>{"a_b", "a_b 2", "A_B 3", "a_b", longest,
+                                              longest.substr(2) + " 2", umlaut, small + " 2"}));
+}
+
 TEST(ExportCurves, BrepGivesEveryCubicOfTheCorpusBackInMillimetresOnly) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "curves.brep";
@@ -309,7 +330,7 @@ TEST(ExportCurves, RefusesNoCurvesAndNamesWithControlCharacters) {
                std::invalid_argument);
 }
 
-TEST(ExportCurves, SaysThatACurveIsBeyondStep) {
+TEST(ExportCurves, SaysThatACurveIsOfTooHighADegree) {
   const ScratchDirectory scratch;
   const int degree = 26;
   std::vector<double> knots(degree + 1, 0);
@@ -317,9 +338,11 @@ TEST(ExportCurves, SaysThatACurveIsBeyondStep) {
   const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Random(3, degree + 1);
   const NurbsCurve curve =
       make_nurbs_curve(KnotVector(degree, knots), points, Eigen::VectorXd::Ones(degree + 1));
-  const auto problems = export_curves(scratch.path() / "a.step", {{"a", curve}}, LengthUnit::metre);
-  ASSERT_EQ(problems.size(), 1U);
-  EXPECT_NE(problems[0].message.find("degree"), std::string::npos) << problems[0].message;
+  for (const char* name : {"a.step", "a.igs"}) {
+    const auto problems = export_curves(scratch.path() / name, {{"a", curve}}, LengthUnit::metre);
+    ASSERT_EQ(problems.size(), 1U) << name;
+    EXPECT_NE(problems[0].message.find("degree"), std::string::npos) << problems[0].message;
+  }
   EXPECT_EQ(entries(scratch.path()), 0);
 }
 

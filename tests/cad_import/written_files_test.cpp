@@ -36,6 +36,7 @@
 #include "cad_import/iges/iges_global.h"
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
+#include "nurbs/closest_point.h"
 #include "nurbs/curve_chain.h"
 #include "nurbs/smooth/smooth_nurbs.h"
 #include "tests/cad_import/scratch_directory.h"
@@ -391,6 +392,56 @@ TEST(ExportSolids, ABentPipeRunHasItsVolume) {
     const TopoDS_Shape shape = second_reading(file);
     EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
     EXPECT_NEAR(volume_of(shape) / (pi * (0.0025 - bore * bore) * length(run)), 1, 1e-8);
+  }
+}
+
+/// How far the walls are from this distance to the curve, at most [m].
+double error_of_walls(const TopoDS_Shape& shape, const NurbsCurve& curve, double radius) {
+  constexpr int places = 64, directions = 3;
+  const BezierPath axis = BezierPath::from_nurbs(curve, 1);
+  const ClosestPoints closest(axis.segments);
+  double largest = 0;
+  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
+    const BRepAdaptor_Surface wall(TopoDS::Face(face.Current()));
+    if (wall.GetType() == GeomAbs_Plane) continue;
+    const double u = wall.FirstUParameter(), v = wall.FirstVParameter();
+    const double du = (wall.LastUParameter() - u) / directions, dv = (wall.LastVParameter() - v) / places;
+    for (int i = 0; i < directions; ++i)
+      for (int j = 0; j <= places; ++j) {
+        const gp_Pnt place = wall.Value(u + i * du, v + j * dv);  // [mm]
+        const double distance = closest.to(1e-3 * Eigen::Vector3d(place.X(), place.Y(), place.Z())).distance;
+        largest = std::max(largest, std::abs(distance - radius));
+      }
+  }
+  return largest;
+}
+
+/// One element of a cantilever whose tip is so far down.
+NurbsCurve cantilever(double down) {
+  Eigen::Matrix3Xd points(3, 4);
+  points << 0, 1. / 3, 2. / 3, 1, 0, 0, 0, 0, 0, 0, -down / 2, -down;
+  return make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 1, 1, 1}), points, Eigen::VectorXd::Ones(4));
+}
+
+TEST(ExportSolids, WallsAreAsNearAsIsSaidHoweverTheCurveBends) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "bar.step";
+  for (const double radius : {0.01, 0.001})
+    for (const double down : {0.002, 0.006, 0.0085, 0.012, 0.03, 0.1, 0.4}) {
+      const NurbsCurve bar = cantilever(down);
+      const auto problem = export_solids(file, {{{"bar", bar}, radius}}, LengthUnit::metre);
+      ASSERT_TRUE(problem.empty()) << down << " " << problem[0].message;
+      const TopoDS_Shape shape = second_reading(file);
+      EXPECT_NEAR(volume_of(shape) / (pi * radius * radius * length(bar)), 1, 1e-6) << down;
+      EXPECT_LE(error_of_walls(shape, bar, radius), 1e-6 * radius) << down;
+    }
+  const NurbsCurve ring = smooth_nurbs(wavy_ring(24, 0), CurveParameter::free, 1e-12).curve;
+  const Eigen::Matrix4d straight = cantilever(1e-5).control_points();
+  const NurbsCurve uneven(cantilever(1e-5).knots(),
+                          straight * Eigen::Vector4d(1, 0.5, 0.4, 1.5).asDiagonal());
+  for (const NurbsCurve& curve : {cable(1), cable(20, 0.01), ring, uneven}) {
+    ASSERT_TRUE(export_solids(file, {{{"curve", curve}, 0.02}}, LengthUnit::metre).empty());
+    EXPECT_LE(error_of_walls(second_reading(file), curve, 0.02), 1e-6 * 0.02);
   }
 }
 

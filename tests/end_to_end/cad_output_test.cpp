@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "cad_import/export_curves.h"
@@ -215,6 +217,36 @@ TEST_F(CadOutputTest, TheSourceGetsTheDeformedShapeInPlaceOfTheDrawnOne) {
   EXPECT_LE((middle(undeformed.curves[1].curve) - middle(before.curves[1].curve)).norm(), 1e-12);
 }
 
+/// An archive of one file, not compressed.
+std::string zipped(const std::string& text) {
+  const auto little_endian = [](std::size_t value, int count) {
+    std::string bytes;
+    for (int i = 0; i < count; ++i, value >>= 8) bytes += static_cast<char>(value & 0xFF);
+    return bytes;
+  };
+  return "PK\x03\x04" + little_endian(20, 14) + little_endian(text.size(), 4) +
+         little_endian(text.size(), 4) + little_endian(6, 4) + "a.step" + text;
+}
+
+TEST_F(CadOutputTest, ThePackedSourceIsWrittenUnpacked) {
+  const std::filesystem::path step = drawing(directory);
+  const auto run_into = [&](const std::filesystem::path& file) {
+    std::ifstream content(file, std::ios::binary);
+    directory.write("drawing.stpz", zipped({std::istreambuf_iterator<char>(content), {}}));
+    return run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
+                "analysis.end_time=0.01", "--set",
+                R"(beams[0].axis={"file": "drawing.stpz", "curve": "cable"})", "--set",
+                R"(output.cad={"formats": ["step-source"], "times": [0]})"});
+  };
+  ASSERT_EQ(run_into(step), 0) << messages;
+  EXPECT_EQ(import_curves(results / "deformed_t0_source.step").curves.size(), 2u);
+  const std::filesystem::path iges = directory.path() / "drawing.igs";
+  EXPECT_TRUE(
+      export_curves(iges, {{"cable", import_curves(step).curves.at(1).curve}}, LengthUnit::metre).empty());
+  EXPECT_EQ(run_into(iges), 2);
+  EXPECT_NE(messages.find("is not from a STEP file"), std::string::npos) << messages;
+}
+
 TEST_F(CadOutputTest, ExportGivesTheCurveTheNameOfTheDrawing) {
   drawing(directory);
   ASSERT_EQ(run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
@@ -230,6 +262,22 @@ TEST_F(CadOutputTest, ExportGivesTheCurveTheNameOfTheDrawing) {
   EXPECT_EQ(exported(), "cable");
   std::filesystem::remove(results / "run.json");  // which a run that is killed does not write
   EXPECT_EQ(exported(), "rope");
+}
+
+TEST_F(CadOutputTest, GuidesHaveNoSolidNorSectionLines) {
+  ASSERT_EQ(run({"run", case_file.string(), "--quiet", "--out", results.string(), "--set",
+                 "analysis.end_time=0.01", "--set",
+                 R"(beams=[{"name": "rail", "rigid": true, "axis": {"polyline": [[0, 1, 0], [1, 1, 0]]}},
+                           {"name": "cable", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "torsion": true,
+                            "section": {"radius": 0.01},
+                            "material": {"density": 7200, "youngs_modulus": 20e6}}])",
+                 "--set", "supports[0].type=clamped", "--set",
+                 R"(output.cad={"formats": ["step-solid", "step-section-lines"], "times": [0]})"}),
+            0)
+      << messages;
+  const std::vector<ImportedCurve> rod = import_curves(results / "deformed_t0_solid.step").curves;
+  EXPECT_EQ(std::ranges::count_if(rod, &ImportedCurve::is_centre_line), 1);
+  EXPECT_EQ(import_curves(results / "deformed_t0_section_lines.step").curves.size(), 4u);
 }
 
 TEST_F(CadOutputTest, ASourceThatIsNoStepFileIsRefusedBeforeTheRun) {
@@ -272,6 +320,8 @@ TEST_F(CadOutputTest, ExportOffersTheSameForms) {
   EXPECT_EQ(exported("material.igs", {"--parameter", "material", "--unit", "inch"}), 0) << messages;
   EXPECT_EQ(import_curves(directory.path() / "material.igs").unit, "inch");
   EXPECT_NEAR(only_curve(directory.path() / "material.igs").knots().end(), 1, 1e-15);
+  EXPECT_EQ(exported("x.igs", {"--schema", "ap242"}), 2);
+  EXPECT_NE(messages.find("--schema: is that of a STEP file"), std::string::npos) << messages;
   EXPECT_EQ(exported("x.step", {"--parameter", "arc"}), 2);
   EXPECT_NE(messages.find("material"), std::string::npos) << messages;
 }

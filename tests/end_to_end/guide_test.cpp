@@ -177,6 +177,7 @@ TEST(GuideRun, WhatAGuideDoesNotTakeIsRefused) {
   says(R"(sliding_joints[0].slope=discontinuous)", "it has no kink at a body");
   says(R"(sliding_joints[0].follows_section=true)", "it has no sections");
   says(R"(analysis.type=modes)", "all beams are rigid guides");
+  says(R"(output.cad={"formats": ["step-solid"]})", "which have no sections");
 }
 
 }  // namespace
