@@ -475,6 +475,9 @@ TEST_F(CaseFileTest, OverridesReplaceAddAndRemoveValues) {
   EXPECT_EQ(c.gravity, Eigen::Vector3d(0, 0, -1.62));
   EXPECT_EQ(std::get<CaseAxis::Polyline>(c.beams[0].axis.source).at(1), Eigen::Vector3d(1, 0, 0.02));
   EXPECT_TRUE(c.supports.empty());
+  EXPECT_EQ(read_valid(full_case, {"output=null", "output.every=null"}).output.probes.size(), 0u);
+  const std::size_t supports = read_valid(full_case).supports.size();
+  EXPECT_EQ(read_valid(full_case, {"supports[0]=null"}).supports.size(), supports - 1);
 }
 
 TEST_F(CaseFileTest, OverridesNameItemsByNumberOrName) {
