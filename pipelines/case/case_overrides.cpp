@@ -142,6 +142,16 @@ AppliedOverride put_at(Json& root, const std::string& path, const Json& new_valu
   return {{}, walked};
 }
 
+/// Of a number in one of its rows.
+DimensionAtPath in_table(const Shape& table, const std::string& path, const std::vector<std::string>& parts) {
+  const auto column = parts.size() == 2 && as_index(parts[0]) ? as_index(parts[1]) : std::nullopt;
+  if (!column || *column > static_cast<std::size_t>(table.values))
+    return {{},
+            path + " is a table; name a row of it and one of the " + std::to_string(1 + table.values) +
+                " numbers in it, as in " + path + "[0][1]"};
+  return {*column == 0 ? table.argument : table.dimension, {}};
+}
+
 }  // namespace
 
 AppliedOverride set_value(Json& root, const std::string& path, const Json& value) {
@@ -175,17 +185,20 @@ DimensionAtPath dimension_at(const std::string& path) {
     return {{}, "the brackets do not match; write it as in beams[0].section.radius"};
   const Shape* shape = &case_keys();
   std::string walked;
-  for (const std::string& part : path_parts(path)) {
-    const std::string here = walked.empty() ? "the case file" : walked;
+  const std::vector<std::string> parts = path_parts(path);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string &part = parts[i], here = walked.empty() ? "the case file" : walked;
     const Shape* holder = shape;
     if (shape->kind == Kind::either)
       for (const Shape& item : shape->items)
-        if (item.kind == Kind::object || item.kind == Kind::array) holder = &item;
+        if (item.kind == Kind::object || item.kind == Kind::array || item.kind == Kind::table) holder = &item;
     if (holder->kind == Kind::array) {
       walked += "[" + part + "]";
       shape = &holder->items[0];
     } else if (holder->kind == Kind::vector && as_index(part)) {
       return {holder->dimension, {}};
+    } else if (holder->kind == Kind::table) {
+      return in_table(*holder, here, {parts.begin() + static_cast<std::ptrdiff_t>(i), parts.end()});
     } else if (holder->kind == Kind::object) {
       const Key* key = find_key(*holder, part);
       if (!key)
