@@ -230,7 +230,9 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
       out << "  correlation with " << study.variables[free[k]].name << " "
           << text_of(result.covariance[i][k] / (result.sd[i] * result.sd[k]), 3) << "\n";
   }
-  out << "root mean square of what is left: " << text_of(result.noise, 4) << " of the given sd\n";
+  out << (result.degrees_of_freedom > 0 ? "standard deviation of the noise: "
+                                        : "root mean square of what is left: ")
+      << text_of(result.noise, 4) << " of the given sd\n";
 }
 
 }  // namespace
