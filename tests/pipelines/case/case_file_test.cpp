@@ -348,6 +348,7 @@ TEST_F(CaseFileTest, ABodyIsHeldByExactlyOneSlidingJoint) {
 }
 
 TEST_F(CaseFileTest, TimeTablesMustIncrease) {
+  expect_error({"supports[0].motion=[]"}, "supports[0].motion", {"has no rows; expected rows ["});
   expect_error({"loads[0].time=[[0, 1], [1, 0], [1, 2]]"}, "loads[0].time[2]", {"must increase"}, full_case);
   expect_error({"loads[0].time=[[0, 1, 2]]"}, "loads[0].time[0]", {"[time, value]"}, full_case);
   expect_error({"output.cad.times=[0, 2]"}, "output.cad.times[1]", {"2 s", "0.7 s"}, full_case);
