@@ -292,8 +292,8 @@ void write_study_netcdf(const std::filesystem::path& file, const StudyFile& stud
       statuses.push_back(name_of(variant.status));
       reasons.push_back(variant.reason);
     }
-    out.define_texts("status", "variant", statuses);
-    out.define_texts("reason", "variant", reasons);
+    out.define_texts("status", "variant", "how the variant ended", statuses);
+    out.define_texts("reason", "variant", "why the variant is not done", reasons);
     for (const auto& [name, values] : columns)
       if (count > 0) out.put(name, {0}, {count}, values.data());
     out.close();
