@@ -37,8 +37,11 @@ NurbsCurve with_knot(const NurbsCurve& curve, double u, int times) {
   if (!(u > knots.start() && u < knots.end()))
     throw std::invalid_argument("the knot " + text_of(u) + " must lie between " + text_of(knots.start()) +
                                 " and " + text_of(knots.end()) + ", the ends of the curve");
+  if (times < 1)
+    throw std::invalid_argument("the knot " + text_of(u) + " is to be inserted " + std::to_string(times) +
+                                " times; must be at least 1");
   const int most = knots.degree() - knots.multiplicity(u);
-  if (times < 1 || times > most)
+  if (times > most)
     throw std::invalid_argument("the knot " + text_of(u) + " cannot be inserted " + std::to_string(times) +
                                 " times; it stands " + std::to_string(knots.multiplicity(u)) +
                                 " times, and a curve of degree " + std::to_string(knots.degree()) +

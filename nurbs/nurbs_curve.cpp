@@ -45,14 +45,14 @@ NurbsCurve::NurbsCurve(KnotVector knots, Eigen::Matrix4Xd control_points)
   if (control_points_.cols() != knots_.control_point_count())
     message << "there are " << control_points_.cols() << " control points; the knots ask for "
             << knots_.control_point_count();
+  else if (!control_points_.row(3).allFinite() || control_points_.row(3).minCoeff() <= 0)
+    message << "the weights of a NURBS curve must be finite and positive: " << control_points_.row(3);
   else if (!control_points_.allFinite())
     message << "the control points of a NURBS curve must be finite:\n" << control_points_;
   else if (control_points_.cwiseAbs().maxCoeff() > largest)
     message << "the control points of a NURBS curve must be at most " << largest
             << ", so that lengths are numbers:\n"
             << control_points_;
-  else if (control_points_.row(3).minCoeff() <= 0)
-    message << "the weights of a NURBS curve must be positive: " << control_points_.row(3);
   else
     return;
   throw std::invalid_argument(message.str());

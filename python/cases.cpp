@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_schema.h"
 #include "pipelines/model/model_summary.h"
 #include "python/bindings.h"
@@ -21,6 +22,14 @@ std::pair<std::string, PlainFindings> case_json(const std::filesystem::path& fil
                                                 const std::vector<std::string>& overrides) {
   const CaseTextReport report = case_text(file, overrides);
   return {report.json, plain(report.diagnostics)};
+}
+
+// (the case as JSON, the place where items are numbers, the problem or "").
+std::tuple<std::string, std::string, std::string> with_value(const std::string& text, const std::string& path,
+                                                             const std::string& value) {
+  Json json = Json::parse(text);
+  const AppliedOverride applied = set_value(json, path, Json::parse(value));
+  return {json.dump(), applied.path, applied.problem};
 }
 
 // (the case or nothing, findings).
@@ -53,6 +62,7 @@ Built build(const std::string& text, const std::filesystem::path& file) {
 
 void bind_cases(py::module_& module) {
   module.def("case_json", &case_json, py::arg("file"), py::arg("overrides"));
+  module.def("with_value", &with_value, py::arg("text"), py::arg("path"), py::arg("value"));
   module.def("build", &build, py::arg("text"), py::arg("file"));
   module.def("schema", &case_file_schema);
   py::class_<BuiltCase, std::shared_ptr<BuiltCase>>(module, "BuiltCase", "A case and its model.")

@@ -204,7 +204,7 @@ struct Simulation::Implementation {
   // Takes over what a search for rest came to; whether the run goes on.
   bool book(RestReport rest) {
     run_.report.newton_iterations += rest.newton_iterations;
-    run_.report.steps += rest.load_steps;
+    if (run_.options.statics) run_.report.steps += rest.load_steps;
     run_.report.length_control_seconds += rest.length_control_seconds;
     run_.report.diverges = run_.report.diverges || rest.diverges;
     if (rest.snap && !run_.report.snap) run_.report.snap = rest.snap;

@@ -259,7 +259,8 @@ class Checker {
 
   bool check_table(const Shape& shape, Json& value, const std::string& path) {
     if (value.is_null()) return false;  // a file whose fault has been reported
-    if (!value.is_array() || value.empty()) return wrong_type(shape, value, path);
+    if (!value.is_array()) return wrong_type(shape, value, path);
+    if (value.empty()) return failed(path, "has no rows; expected " + expected(shape));
     const Shape argument = {.kind = Kind::quantity, .dimension = shape.argument};
     const bool over_time = shape.argument == Dimension::time;
     const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension, .range = shape.range};

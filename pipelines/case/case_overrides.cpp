@@ -86,9 +86,16 @@ std::optional<double> loose_number(std::string_view text) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
-/// Sets one value of the case; null removes the key.
-AppliedOverride apply_override(Json& root, const std::string& path, const Json& new_value) {
+/// Of which a part is changed though all of it is omitted.
+void write_out_gravity(Json& root) {
+  if (!root.is_object() || root.contains("gravity")) return;
+  for (const double g : CaseFile{}.gravity) root["gravity"].push_back(g);
+}
+
+AppliedOverride put_at(Json& root, const std::string& path, const Json& new_value) {
+  const bool removes = new_value.is_null();
   Json* value = &root;
+  Json absent;  // stands for what is not there, and of which nothing is to be removed
   const Shape* shape = &case_keys();
   std::string walked;
   const std::vector<std::string> parts = path_parts(path);
@@ -105,6 +112,10 @@ AppliedOverride apply_override(Json& root, const std::string& path, const Json& 
                     part + "]" + known_items(*value, part),
                 {}};
       walked = child(walked, *index);
+      if (removes && i + 1 == parts.size()) {
+        value->erase(*index);
+        return {{}, walked};
+      }
       shape = holder.kind == Kind::array ? &holder.items[0] : shape;
       value = &(*value)[*index];
       continue;
@@ -114,7 +125,7 @@ AppliedOverride apply_override(Json& root, const std::string& path, const Json& 
       return {"there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder)), {}};
     walked = child(walked, part);
     shape = &key->shape;
-    if (new_value.is_null() && i + 1 == parts.size()) {
+    if (removes && i + 1 == parts.size()) {
       if (value->is_object()) value->erase(part);
       return {{}, walked};
     }
@@ -125,20 +136,38 @@ AppliedOverride apply_override(Json& root, const std::string& path, const Json& 
         return {here + " is " + value->dump() + ", which has no parts; set it as a whole", {}};
       *value = Json::object();
     }
-    value = &(*value)[part];
+    value = removes && !value->contains(part) ? &(absent = Json()) : &(*value)[part];
   }
   *value = new_value;
   return {{}, walked};
 }
 
+/// Of a number in one of its rows.
+DimensionAtPath in_table(const Shape& table, const std::string& path, const std::vector<std::string>& parts) {
+  const auto column = parts.size() == 2 && as_index(parts[0]) ? as_index(parts[1]) : std::nullopt;
+  if (!column || *column > static_cast<std::size_t>(table.values))
+    return {{},
+            path + " is a table; name a row of it and one of the " + std::to_string(1 + table.values) +
+                " numbers in it, as in " + path + "[0][1]"};
+  return {*column == 0 ? table.argument : table.dimension, {}};
+}
+
 }  // namespace
+
+AppliedOverride set_value(Json& root, const std::string& path, const Json& value) {
+  if (!has_sound_brackets(path))
+    return {"the brackets of the path do not match; write it as in beams[0].section.radius", {}};
+  Json changed = root;
+  if (path.starts_with("gravity[")) write_out_gravity(changed);
+  AppliedOverride applied = put_at(changed, path, value);
+  if (applied.problem.empty()) root = std::move(changed);
+  return applied;
+}
 
 AppliedOverride apply_override(Json& root, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos) return {"expected path=value, for example analysis.end_time=0.1", {}};
   const std::string path = text.substr(0, equals), value_text = text.substr(equals + 1);
-  if (!has_sound_brackets(path))
-    return {"the brackets of the path do not match; write it as in beams[0].section.radius=0.01", {}};
   if (too_deep_at(value_text) != std::string::npos) return {too_deep_message(), {}};
   Json value = Json::parse(value_text, nullptr, false);
   if (value.is_discarded()) {
@@ -148,13 +177,7 @@ AppliedOverride apply_override(Json& root, const std::string& text) {
           {}};
     value = value_text;  // what does not read as JSON is a text
   }
-  Json changed = root;
-  if (path.starts_with("gravity[") && changed.is_object() &&
-      !changed.contains("gravity"))  // a part of what it is when omitted
-    for (const double g : CaseFile{}.gravity) changed["gravity"].push_back(g);
-  AppliedOverride applied = apply_override(changed, path, value);
-  if (applied.problem.empty()) root = std::move(changed);
-  return applied;
+  return set_value(root, path, value);
 }
 
 DimensionAtPath dimension_at(const std::string& path) {
@@ -162,17 +185,20 @@ DimensionAtPath dimension_at(const std::string& path) {
     return {{}, "the brackets do not match; write it as in beams[0].section.radius"};
   const Shape* shape = &case_keys();
   std::string walked;
-  for (const std::string& part : path_parts(path)) {
-    const std::string here = walked.empty() ? "the case file" : walked;
+  const std::vector<std::string> parts = path_parts(path);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string &part = parts[i], here = walked.empty() ? "the case file" : walked;
     const Shape* holder = shape;
     if (shape->kind == Kind::either)
       for (const Shape& item : shape->items)
-        if (item.kind == Kind::object || item.kind == Kind::array) holder = &item;
+        if (item.kind == Kind::object || item.kind == Kind::array || item.kind == Kind::table) holder = &item;
     if (holder->kind == Kind::array) {
       walked += "[" + part + "]";
       shape = &holder->items[0];
     } else if (holder->kind == Kind::vector && as_index(part)) {
       return {holder->dimension, {}};
+    } else if (holder->kind == Kind::table) {
+      return in_table(*holder, here, {parts.begin() + static_cast<std::ptrdiff_t>(i), parts.end()});
     } else if (holder->kind == Kind::object) {
       const Key* key = find_key(*holder, part);
       if (!key)

@@ -3,11 +3,14 @@
 
 namespace nurbeam {
 
-/// What a path=value text did to a case.
+/// What a value at a path did to a case.
 struct AppliedOverride {
   std::string problem;  ///< "" where the case has been changed
   std::string path;     ///< of the value, items of arrays by their number: beams[0].section.radius
 };
+/// Null removes the key or the item; the case is as it was where there is a problem.
+AppliedOverride set_value(Json& root, const std::string& path, const Json& value);
+/// The same of a path=value text.
 AppliedOverride apply_override(Json& root, const std::string& text);
 /// Applies --set path=value texts; what is wrong with them goes to `wrong`.
 void apply_overrides(Json& root, const std::vector<std::string>& overrides, std::vector<Diagnostic>& wrong);

@@ -21,6 +21,14 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
 }
 
+// Whether a space stands before or in the brackets of a unit: "moment [N m]".
+bool is_before_or_in_brackets(const std::string& line, std::size_t space) {
+  const auto opens = line.find_last_of("[(", line.find_first_not_of(' ', space));
+  if (opens == std::string::npos) return false;
+  const auto closes = line.find_first_of(")]", opens);
+  return opens > space || (closes > space && closes != std::string::npos);
+}
+
 // What stands between commas or, where there are none, semicolons, tabs or spaces.
 std::vector<std::string> cells_of(const std::string& line) {
   char separator = ' ';
@@ -28,9 +36,10 @@ std::vector<std::string> cells_of(const std::string& line) {
     if (separator == ' ' && line.find(each) != std::string::npos) separator = each;
   std::vector<std::string> cells;
   std::string cell;
-  for (const char c : line + separator) {
-    if (c != separator) {
-      cell += c;
+  const std::string ended = line + separator;
+  for (std::size_t i = 0; i < ended.size(); ++i) {
+    if (ended[i] != separator || (separator == ' ' && is_before_or_in_brackets(line, i))) {
+      cell += ended[i];
     } else if (separator != ' ' || !trimmed(cell).empty()) {
       cells.push_back(trimmed(cell));
       cell.clear();
@@ -48,16 +57,41 @@ std::optional<double> number_of(const std::string& cell) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
-// "z [mm]" is the column z in millimetres.
+// "z [mm]", "z (mm)" and "z/mm" are the column z in millimetres.
 struct Column {
   std::string name;
   std::optional<std::string> unit = {};
+  bool in_brackets = false;  // where nothing but a unit can stand
 };
 
+// Without the brackets around it.
+std::optional<std::string> known_unit(const std::string& text) {
+  const std::string unit =
+      text.starts_with('(') && text.ends_with(')') ? text.substr(1, text.size() - 2) : text;
+  const bool is_word = unit.find_first_not_of("0123456789 ./-") != std::string::npos;
+  return is_word && in_si_units(unit) ? std::optional(trimmed(unit)) : std::nullopt;
+}
+
+// "z (left)" and "F/F0" are names.
 Column column_of(const std::string& heading) {
-  const std::size_t open = heading.find('[');
-  if (open == std::string::npos || !heading.ends_with(']')) return {heading};
-  return {trimmed(heading.substr(0, open)), trimmed(heading.substr(open + 1, heading.size() - open - 2))};
+  const std::size_t bracket = heading.find('[');
+  if (bracket != std::string::npos && heading.ends_with(']'))
+    return {trimmed(heading.substr(0, bracket)),
+            trimmed(heading.substr(bracket + 1, heading.size() - bracket - 2)), true};
+  for (const std::size_t end : {heading.rfind('('), heading.find('/')}) {
+    if (end == std::string::npos || end == 0) continue;
+    if (const auto unit = known_unit(trimmed(heading.substr(end + (heading[end] == '/' ? 1 : 0)))))
+      return {trimmed(heading.substr(0, end)), unit};
+  }
+  return {heading};
+}
+
+// The t of f(t), the h of x/h, the g of a/g and the least force of "F (min)", where they are no units of what
+// the column holds.
+bool is_symbol(const Column& column, Dimension dimension) {
+  const std::string& unit = *column.unit;
+  const bool may_be = unit == "t" || unit == "h" || unit == "g" || unit == "min";
+  return may_be && !column.in_brackets && !parse_quantity("1 " + unit, dimension).value;
 }
 
 // The lines of a file that count, with their numbers.
@@ -194,7 +228,8 @@ class TableFile {
   bool read_units() {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Column of = columns_[i] < header_.size() ? column_of(header_[columns_[i]]) : Column{};
-      if (!of.unit) {
+      const Dimension dimension = i == 0 ? shape_.argument : shape_.dimension;
+      if (!of.unit || is_symbol(of, dimension)) {
         units_.push_back(1);
         continue;
       }
@@ -207,7 +242,6 @@ class TableFile {
                             "; write one as \"[mm]\" or \"[N m]\", or numbers in SI units without one");
         return false;
       }
-      const Dimension dimension = i == 0 ? shape_.argument : shape_.dimension;
       const bool any = dimension == Dimension::number || *of.unit == "-";
       const ParsedQuantity one = any ? ParsedQuantity{unit, {}} : parse_quantity("1 " + *of.unit, dimension);
       if (!one.value) {

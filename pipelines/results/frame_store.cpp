@@ -70,7 +70,7 @@ void FrameStore::define_scalars() {
 void FrameStore::define_points(const std::string& kind, const std::vector<std::string>& names) {
   if (names.empty()) return;
   file_.define_dimension(kind, names.size());
-  file_.define_texts(kind + "_name", kind, names);
+  file_.define_texts(kind + "_name", kind, "name of the " + kind, names);
   define_of_time(kind + "_position", {kind, "xyz"}, "m", "position of the " + kind);
   define_of_time(kind + "_velocity", {kind, "xyz"}, "m s-1", "velocity of the " + kind);
 }
@@ -82,7 +82,7 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   file_.define_dimension("control_point", 4);
   file_.define_dimension("homogeneous", 4);
   file_.define_dimension("sample", sample_count);
-  file_.define_texts("beam_name", "beam", names);
+  file_.define_texts("beam_name", "beam", "name of the beam", names);
   define_of_time("beam_length", {"beam"}, "m", "deformed length of the beam");
   define_of_time("beam_sag", {"beam"}, "m", "how far the beam hangs below the line of its ends");
   for (const BeamExtreme& extreme : beam_extremes_) {
@@ -124,7 +124,7 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
 void FrameStore::define_reactions(const std::vector<std::string>& names) {
   if (names.empty()) return;
   file_.define_dimension("reaction", names.size());
-  file_.define_texts("reaction_name", "reaction", names);
+  file_.define_texts("reaction_name", "reaction", "name of the support or joint", names);
   define_of_time("reaction_position", {"reaction", "xyz"}, "m", "where the support or joint is");
   define_of_time("reaction_force", {"reaction", "xyz"}, "N",
                  "force of the support on its beam, of the second of two joined beams on the first");
@@ -134,7 +134,7 @@ void FrameStore::define_reactions(const std::vector<std::string>& names) {
 void FrameStore::define_connectors(const std::vector<std::string>& names) {
   if (names.empty()) return;
   file_.define_dimension("connector", names.size());
-  file_.define_texts("connector_name", "connector", names);
+  file_.define_texts("connector_name", "connector", "name of the connector", names);
   for (const ConnectorPart& part : connector_parts)
     define_of_time(std::string("connector_") + part.name, {"connector"}, part.unit, part.long_name);
   for (const ConnectorPlace& place : connector_places)

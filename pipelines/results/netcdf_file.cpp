@@ -178,9 +178,10 @@ void NetcdfFile::put_meaning(const std::string& name, const std::string& unit, c
 }
 
 void NetcdfFile::define_texts(const std::string& name, const std::string& dimension,
-                              const std::vector<std::string>& texts) {
+                              const std::string& long_name, const std::vector<std::string>& texts) {
   const auto lock = one_at_a_time();
   define_variable(name, NC_STRING, {dimension});
+  put_attribute(name, "long_name", long_name);
   texts_.emplace_back(name, texts);
 }
 

@@ -36,7 +36,7 @@ class NetcdfFile {
   /// whether it is worth compressing where the file is packed.
   void define(const std::string& name, Type type, const std::vector<std::string>& dimensions,
               const std::string& unit, const std::string& long_name, std::size_t rows);
-  void define_texts(const std::string& name, const std::string& dimension,
+  void define_texts(const std::string& name, const std::string& dimension, const std::string& long_name,
                     const std::vector<std::string>& texts);
   /// An attribute of a variable; of the file for "".
   void put_attribute(const std::string& variable, const std::string& name, const std::string& text);

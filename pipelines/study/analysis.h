@@ -83,7 +83,9 @@ struct CalibrationResult {
   std::vector<std::vector<double>> covariance;  ///< of the free variables; likewise
   std::vector<std::string> active;              ///< constraints at whose edge the point is
   int degrees_of_freedom = 0;                   ///< of the noise that is estimated; 0: its sd is given
-  double noise = 0;                ///< root mean square of what is left between measurement and run, in `sd`s
+  /// Of what is left between measurement and run, in `sd`s: the estimated standard deviation of the noise,
+  /// or the root mean square where its sd is given.
+  double noise = 0;
   std::vector<double> quantities;  ///< of that point
   int evaluations = 0;
 };

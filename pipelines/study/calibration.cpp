@@ -493,10 +493,11 @@ CalibrationResult calibrate(const StudyFile& study, const StudyCalibration& cali
   if (!ended) throw std::runtime_error("the measurements do not determine the variables: " + problem);
   CalibrationResult result{.point = runs.point_of(place), .quantities = runs.quantities(place)};
   if (result.quantities.empty()) throw std::runtime_error("the variant that was found is not done");
-  result.noise = left_at(runs, place).norm() / std::sqrt(static_cast<double>(runs.measured().size()));
+  const std::size_t values = runs.measured().size();
+  if (!calibration.prior) result.degrees_of_freedom = static_cast<int>(values - runs.variables());
+  result.noise = left_at(runs, place).norm() /
+                 std::sqrt(static_cast<double>(calibration.prior ? values : values - runs.variables()));
   if (is_beyond) result.active = active_at(runs, place);
-  if (!calibration.prior)
-    result.degrees_of_freedom = static_cast<int>(runs.measured().size() - runs.variables());
   if (result.active.empty())
     add_intervals(study, calibration, runs.units(),
                   is_beyond ? covariance_at(runs, place, calibration.prior)

@@ -230,7 +230,9 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
       out << "  correlation with " << study.variables[free[k]].name << " "
           << text_of(result.covariance[i][k] / (result.sd[i] * result.sd[k]), 3) << "\n";
   }
-  out << "root mean square of what is left: " << text_of(result.noise, 4) << " of the given sd\n";
+  out << (result.degrees_of_freedom > 0 ? "standard deviation of the noise: "
+                                        : "root mean square of what is left: ")
+      << text_of(result.noise, 4) << " of the given sd\n";
 }
 
 }  // namespace
@@ -290,8 +292,8 @@ void write_study_netcdf(const std::filesystem::path& file, const StudyFile& stud
       statuses.push_back(name_of(variant.status));
       reasons.push_back(variant.reason);
     }
-    out.define_texts("status", "variant", statuses);
-    out.define_texts("reason", "variant", reasons);
+    out.define_texts("status", "variant", "how the variant ended", statuses);
+    out.define_texts("reason", "variant", "why the variant is not done", reasons);
     for (const auto& [name, values] : columns)
       if (count > 0) out.put(name, {0}, {count}, values.data());
     out.close();

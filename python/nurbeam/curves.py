@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -41,6 +42,13 @@ def _point(values: npt.ArrayLike, name: str) -> Array:
     return point
 
 
+def _whole(value: Any, name: str) -> int:
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}; expected a whole number") from None
+
+
 class Curve:
     """A NURBS curve in metres. It does not change: what changes a curve returns another one.
 
@@ -73,7 +81,7 @@ class Curve:
         n = len(points)
         if n < 2:
             raise ValueError(f"{n} control point(s); a curve has at least 2")
-        p = min(3, n - 1) if degree is None else int(degree)
+        p = min(3, n - 1) if degree is None else _whole(degree, "degree")
         if knots is None:
             inner = np.linspace(0, 1, n - p + 1)[1:-1] if n > p else np.empty(0)
             knots = np.concatenate([np.zeros(p + 1), inner, np.ones(p + 1)])
@@ -152,7 +160,7 @@ class Curve:
     def derivatives(self, parameter: npt.ArrayLike, n: int = 1) -> Array:
         """The point and its first n derivatives by the parameter: (n + 1, 3) for one, (..., n + 1, 3) for an array of them
         [m]."""
-        u = np.asarray(parameter, dtype=float)
+        u, n = np.asarray(parameter, dtype=float), _whole(n, "n")
         found = [self._nurbs.derivatives(float(each), n) for each in u.ravel()]
         return np.array(found).reshape(u.shape + (n + 1, 3))
 
@@ -166,7 +174,7 @@ class Curve:
 
     def insert_knot(self, parameter: float, times: int = 1) -> Curve:
         """The same curve with one more knot, or several."""
-        return Curve._of(self._nurbs.insert_knot(float(parameter), times), self.name)
+        return Curve._of(self._nurbs.insert_knot(float(parameter), _whole(times, "times")), self.name)
 
     def to_bezier(self) -> list[Curve]:
         """Its pieces between knots, each a curve on [0, 1] with degree + 1 control points."""

@@ -299,23 +299,14 @@ class Model:
 
     def set(self, path: str, value: Any) -> None:
         """Sets one value of the case by its path, as `--set` does: `model.set("beams[0].section.radius", "7 mm")`, also
-        by name, `"beams.cable.elements.count"`; None removes the key. KeyError for a path that leads nowhere."""
-        parts = [part for part in re.split(r"[.\[\]]+", path) if part]
-        holder: Any = self.case
-        for i, part in enumerate(parts):
-            last = i + 1 == len(parts)
-            if isinstance(holder, list):
-                key: Any = _item_number(holder, part, ".".join(parts[:i]))
-            else:
-                key = part
-                if not last and not isinstance(holder.get(part), (dict, list)):
-                    holder[part] = {}
-            if not last:
-                holder = holder[key]
-            elif value is None:
-                del holder[key]
-            else:
-                holder[key] = _json(value)
+        by name, `"beams.cable.elements.count"`; None removes the key or the item. KeyError, and the case is as it was, for a
+        path that leads nowhere."""
+        asked = _json(value)
+        case, json_value = (json.dumps(_finite(each)) for each in (_json(self.case), asked))
+        text, place, problem = _core.with_value(case, path, json_value)
+        if problem:
+            raise KeyError(problem)
+        _put(self.case, json.loads(text), [int(p) if p.isdigit() else p for p in re.findall(r"[^.\[\]]+", place)], asked)
 
     def copy(self) -> Model:
         """Another model like this, which may be changed by itself."""
@@ -480,16 +471,31 @@ def _has_text(value: Any) -> bool:
     return isinstance(value, str) or (isinstance(value, Sequence) and any(isinstance(item, str) for item in value))
 
 
-def _item_number(items: list[Any], part: str, path: str) -> int:
-    """The item of a list that a path names by its number or by its name."""
-    if part.isdigit():
-        if int(part) < len(items):
-            return int(part)
-        raise KeyError(f"{path} has {len(items)} item(s), counted from 0; there is no [{part}]")
-    names = [item.get("name") for item in items if isinstance(item, dict)]
-    if part in names:
-        return names.index(part)
-    raise KeyError(unknown(f"item of {path}", part, [name for name in names if name]))
+def _finite(value: Any) -> Any:
+    """With 0 for the numbers that JSON has no words for."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_finite(item) for item in value]
+    return 0 if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _put(case: Any, changed: Any, place: Sequence[Any], value: Any) -> None:
+    """Puts a value where a changed case has it; the items on the way remain those that the user may hold."""
+    *way, last = place
+    for key in way:
+        if isinstance(changed, dict) and key not in changed:
+            return  # nothing is there to be removed
+        held = case[key] if isinstance(case, list) else case.get(key)
+        if not isinstance(held, (dict, list)) or type(held) is not type(changed[key]):
+            case[key] = changed[key]
+        case, changed = case[key], changed[key]
+    if value is not None:
+        case[last] = value
+    elif isinstance(case, list):
+        del case[last]
+    else:
+        case.pop(last, None)
 
 
 def load(file: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Model:

@@ -202,7 +202,8 @@ class Snapshot:
 
     @property
     def time(self) -> float:
-        """[s]; of a static analysis the load factor, of modes the number of the mode."""
+        """[s]; of a static analysis the load factor, 0 where it has no `load_steps` and nothing changes with them; of modes the
+        number of the mode."""
         return self._frame.time
 
     @property
@@ -282,7 +283,8 @@ class Results(Sequence[Snapshot]):
 
     @property
     def times(self) -> Array:
-        """The output times [s]; load factors of a static analysis, numbers of modes."""
+        """The output times [s]; of a static analysis its load factors, 0 where it has no `load_steps` and nothing changes with
+        them; numbers of modes."""
         return self._recording.times()
 
     @property

@@ -25,8 +25,9 @@ Array = npt.NDArray[np.float64]
 
 class Checkpoint:
     """A moment that a motion can go on from: `model.simulate(..., start=checkpoint)`, in the same model with the same
-    analysis, with the loads as `set_load` has left them; then bit by bit as if it had not been interrupted (with `ida`
-    within its tolerance). ValueError where the model is another."""
+    integrator, with the loads as `set_load` has left them. The step, the end and the output times may be others; where they
+    are the same it goes on bit by bit as if it had not been interrupted (with `ida` within its tolerance). ValueError where
+    the model is another."""
 
     def __init__(self, core: _core.Checkpoint):
         self._core = core

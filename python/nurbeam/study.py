@@ -7,8 +7,10 @@ import json
 import math
 import operator
 import os
+import shutil
 import subprocess
 import tempfile
+import weakref
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -32,8 +34,10 @@ class Study(Mapping[str, Array]):
     """What a study has left in its directory: columns over its variants, by the names of variables and quantities;
     NaN where a variant is not done.
 
-    `statuses` and `reasons` say how each variant ended; `answer` is what the study found: Sobol indices, a probability, the
-    best variants, derivatives of quantities; None for another plan.
+    `units` are those of the quantities that have one, `statuses` and `reasons` say how each variant ended; `answer` is what
+    the study found: Sobol indices, a probability, the best variants, derivatives of quantities; None for another plan.
+    `surrogates` has, where the study asks for them, one for each quantity: "quantity", "q2" (1: exact), "largest_error" at
+    the variants held back, "sobol_indices".
     """
 
     def __init__(self, directory: str | os.PathLike[str]):
@@ -110,32 +114,19 @@ def _name_files_absolutely(value: Any) -> None:
         value["file"] = os.path.abspath(value["file"])
 
 
-def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
-          jobs: int | None = None, resume: bool = False) -> Study:
-    """Runs a study: a study file, or what it would hold (docs/studies.md, all keys in docs/study-reference.md), where
-    arrays may stand for lists; its case and other files are relative to the file, or to the working directory.
+def _described(study: Mapping[str, Any]) -> Any:
+    """As a study file has it."""
+    described = _json(study)
+    if wrong := _not_finite(described):
+        raise CaseError([Finding(f.severity, f"study: {f.where}", f.message) for f in wrong])
+    if isinstance(described.get("case"), str):
+        described["case"] = os.path.abspath(described["case"])
+    _name_files_absolutely(described)
+    return described
 
-    `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one); `jobs` the number of
-    variants that run at a time, one for each core when omitted; with `resume` the variants that are there already do not
-    run again. Raises CaseError where the study is wrong, ValueError where `jobs` is, and RunError where the study has no
-    answer or cannot be written.
-    """
-    at_a_time = _jobs(jobs)
-    if isinstance(what, Mapping):
-        described = _json(what)
-        if wrong := _not_finite(described):
-            raise CaseError([Finding(f.severity, f"study: {f.where}", f.message) for f in wrong])
-        if isinstance(described.get("case"), str):
-            described["case"] = os.path.abspath(described["case"])
-        _name_files_absolutely(described)
-        directory = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="nurbeam_study_"))
-        directory.mkdir(parents=True, exist_ok=True)
-        file = directory / "study_file.json"
-        file.write_text(json.dumps(described, indent=1), encoding="utf-8")
-    else:
-        file = Path(what)
-        directory = Path(out) if out is not None else Path(f"{file.stem}_study")
-    words = [str(_core.study_program()), "run", str(file), str(directory), str(at_a_time),
+
+def _run(file: Path, directory: Path, jobs: int, resume: bool) -> Study:
+    words = [str(_core.study_program()), "run", str(file), str(directory), str(jobs),
              "resume" if resume else "new", "quiet"]  # fmt: skip
     ended = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     findings = [_finding(line, file) for line in ended.stderr.splitlines()]
@@ -146,3 +137,30 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
         said = [str(finding) for finding in findings if finding.severity == "error"]
         raise RunError("\n".join(said) or f"nurbeam-study ended with exit code {ended.returncode}")
     return Study(directory)
+
+
+def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
+          jobs: int | None = None, resume: bool = False) -> Study:
+    """Runs a study: a study file, or what it would hold (docs/studies.md, all keys in docs/study-reference.md), where
+    arrays may stand for lists; its case and other files are relative to the file, or to the working directory.
+
+    `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one, which is there as long as
+    the Study); `jobs` the number of variants that run at a time, one for each core when omitted; with `resume` the variants
+    that are there already do not run again. Raises CaseError where the study is wrong, ValueError where `jobs` is, and
+    RunError where the study has no answer or cannot be written.
+    """
+    at_a_time = _jobs(jobs)
+    if not isinstance(what, Mapping):
+        file = Path(what)
+        return _run(file, Path(out) if out is not None else Path(f"{file.stem}_study"), at_a_time, resume)
+    described = _described(what)
+    scratch = Path(tempfile.mkdtemp(prefix="nurbeam_study_"))
+    try:
+        file = scratch / "study_file.json"
+        file.write_text(json.dumps(described, indent=1), encoding="utf-8")
+        found = _run(file, Path(out) if out is not None else scratch / "results", at_a_time, resume)
+    except BaseException:
+        shutil.rmtree(scratch, ignore_errors=True)
+        raise
+    weakref.finalize(found, shutil.rmtree, scratch, ignore_errors=True)
+    return found

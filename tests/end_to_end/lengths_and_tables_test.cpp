@@ -311,6 +311,8 @@ TEST(TableFiles, ThatCannotBeReadNamePlaceAndLine) {
   says(R"(loads[0].time={"file": "table.csv"})", "1,0\n0,0\n", "times must increase");
   says(R"(loads[0].time={"file": "table.csv"})", "t [mm],f\n0,0\n",
        "the column \"t [mm]\" cannot be read: \"1 mm\"");
+  says(R"(loads[0].time={"file": "table.csv"})", "t (mm),f\n0,0\n",
+       "the column \"t (mm)\" cannot be read: \"1 mm\"");
   says(R"(loads[0].time={"file": "table.csv"})", "t [foo],f\n0,0\n", "has an unknown unit \"foo\"");
   says(R"(loads[0].time={"file": "table.csv"})", "t,f\n0,0,7\n",
        "line 2: has 3 numbers, but the first line names 2");
@@ -319,11 +321,19 @@ TEST(TableFiles, ThatCannotBeReadNamePlaceAndLine) {
 TEST(TableFiles, HaveTheirColumnsInTheUnitsOfTheirHeadings) {
   const CaseRun seconds =
       run_text(cantilever, {R"(loads[0].time=[[0, 0], [1, 1]])", "analysis.load_steps=4"});
-  const CaseRun milliseconds =
-      run_text(cantilever, {R"(loads[0].time={"file": "table.csv"})", "analysis.load_steps=4"},
-               "t [ms],f,\n0,0,\n1000,1,\n");
-  ASSERT_EQ(milliseconds.code, 0) << milliseconds.messages;
-  expect_same(milliseconds, seconds);
+  for (const char* table : {"t [ms],f,\n0,0,\n1000,1,\n", "t (ms),f(t)\n0,0\n1000,1\n",
+                            "time/ms;F/kN\n0;0\n1000;0.001\n", "Time(ms),F / (kN)\n0,0\n1000,0.001\n",
+                            "time (ms) moment [N m]\n0 0\n1000 1\n", "t (raw),F/F0 (min)\n0,0\n1,1\n"}) {
+    const CaseRun read =
+        run_text(cantilever, {R"(loads[0].time={"file": "table.csv"})", "analysis.load_steps=4"}, table);
+    ASSERT_EQ(read.code, 0) << read.messages;
+    expect_same(read, seconds);
+  }
+  const CaseRun chosen = run_text(
+      cantilever, {R"(loads[0].time={"file": "table.csv", "columns": ["t", "F"]})", "analysis.load_steps=4"},
+      "F/kN,t (ms)\n0,0\n0.001,1000\n");
+  ASSERT_EQ(chosen.code, 0) << chosen.messages;
+  expect_same(chosen, seconds);
 }
 
 // A free bar of 61.65 kg; what a force gives it in all [N s], whatever the steps.

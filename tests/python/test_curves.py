@@ -76,6 +76,8 @@ def test_inserted_knots_leave_the_curve_as_it_is():
     assert np.abs(finer.sample(50) - curve.sample(50)).max() < 1e-13
     with pytest.raises(ValueError, match="cannot be inserted 4 times"):
         curve.insert_knot(0.4, 4)
+    with pytest.raises(ValueError, match="inserted 0 times; must be at least 1"):
+        curve.insert_knot(0.4, 0)
     with pytest.raises(ValueError, match="must lie between 0 and 1"):
         curve.insert_knot(1)
 
@@ -110,6 +112,16 @@ def test_the_closest_point_is_where_no_other_is_nearer(degree):
     assert found.distance >= samples.min() - 1e-3
 
 
+@pytest.mark.parametrize("ask", [
+    lambda curve: nb.Curve(curve.control_points, degree=2.9),
+    lambda curve: curve.derivatives(0.3, 1.5),
+    lambda curve: curve.insert_knot(0.3, "2"),
+])
+def test_numbers_that_are_counted_are_whole(ask):
+    with pytest.raises(TypeError, match="(degree|n|times) is .*; expected a whole number"):
+        ask(nb.Curve([[0, 0, 0], [1, 2, 0], [3, 2, 1], [4, 0, 1.0]], degree=np.int64(3)))
+
+
 def test_what_is_no_curve_says_why():
     with pytest.raises(ValueError, match=r"shape \(3,\); expected \(n, 3\)"):
         nb.Curve([1, 2, 3])
@@ -117,6 +129,8 @@ def test_what_is_no_curve_says_why():
         nb.Curve([[1, 2, 3]])
     with pytest.raises(ValueError, match="weight"):
         nb.Curve([[0, 0, 0], [1, 0, 0]], weights=[1, -1])
+    with pytest.raises(ValueError, match="weights of a NURBS curve must be finite"):
+        nb.Curve([[0, 0, 0], [1, 0, 0]], weights=[1, np.nan])
     with pytest.raises(ValueError, match="must both be|both must be its radius"):
         nb.Curve.arc([0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 1])
     with pytest.raises(ValueError, match="not perpendicular"):

@@ -147,6 +147,39 @@ def test_paths_set_values_as_the_command_line_does():
         model.set("beams[3].name", "x")
 
 
+@pytest.mark.parametrize("path, value", [
+    ("beams[0].name.x", None), ("beams[0].name.x", 3), ("bems[0].x", 3), ("beams[0].elemets.count", 3),
+    ("beams[0].elements.cuont", None), ("supports[0].motion[2]", 1), ("supports[1].type", "pinned"),
+    ("beams[0.name", "x"), ("", 1),
+])
+def test_a_path_that_leads_nowhere_changes_nothing_and_has_the_message_of_the_command_line(path, value, command, tmp_path):
+    model = straight_cantilever()
+    before = model.copy().case
+    model.save(tmp_path / "case.json")
+    with pytest.raises(KeyError) as caught:
+        model.set(path, value)
+    assert model.case == before
+    assert caught.value.args[0] in command("check", tmp_path / "case.json", "--set", f"{path}={json.dumps(value)}", expect=2)
+
+
+def test_what_is_set_leaves_the_items_that_a_user_holds():
+    model = straight_cantilever()
+    support = model.case["supports"][0]
+    load = model.add("loads", beam="rod", at="end", force=[0, np.nan, 0])
+    model.set("loads[0].force[1]", 2)
+    model.set("output.every", None)
+    model.set("supports[0].name", "wall")
+    model.set("gravity[0]", np.inf)
+    model.set("beams.rod.material", "steel")
+    model.set("beams.rod.material.density", 7000)
+    assert load["force"] == [0, 2, 0] and model.case["loads"][0] is load
+    assert support["name"] == "wall" and "output" not in model.case
+    assert model.case["gravity"][0] == np.inf
+    assert model.case["beams"][0]["material"] == {"name": "steel", "density": 7000}
+    model.set("loads[0]", None)
+    assert model.case["loads"] == []
+
+
 def test_a_copy_is_a_model_of_its_own():
     model = straight_cantilever()
     other = model.copy()

@@ -88,6 +88,18 @@ def test_what_no_study_can_hold_is_named(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+def test_a_study_of_a_mapping_leaves_nothing_of_itself_behind(tmp_path, monkeypatch):
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
+    with pytest.raises(nb.CaseError, match="has 2 numbers for 3 variables"):
+        nb.study({**ISHIGAMI, "plan": {"grid": [2, 2]}}, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    study = nb.study({**ISHIGAMI, "plan": {"grid": 2}})
+    assert (study.directory / "study.html").exists()
+    del study
+    assert list((tmp_path / "temporary").iterdir()) == []
+
+
 @pytest.mark.parametrize("jobs", [-1, 0, 1.5, "2"])
 def test_jobs_that_are_none_are_refused(tmp_path, jobs):
     with pytest.raises(ValueError, match=rf"^jobs is {jobs!r}; must be a whole number of at least 1, or None: one for each"):

@@ -79,7 +79,7 @@ TEST(Calibration, OfALineIsThatOfTheTextbooks) {
       const double covariance = inverse(i, k) * squares / (times - 2);
       EXPECT_NEAR(result.covariance[i][k], covariance, 1e-5 * std::abs(covariance)) << i << k;
     }
-  EXPECT_NEAR(result.noise, std::sqrt(squares / times) / 0.1, 1e-7);
+  EXPECT_NEAR(result.noise, std::sqrt(squares / (times - 2)) / 0.1, 1e-7);
   EXPECT_EQ(result.degrees_of_freedom, times - 2);
   for (int i = 0; i < 2; ++i)  // Student's quantile of 97.5 % with 18 degrees of freedom
     EXPECT_NEAR(result.upper[i], result.point[i] + 2.1009220402 * result.sd[i], 1e-9 * result.sd[i]);

@@ -143,6 +143,14 @@ TEST(SimulationTest, AnInterruptionEndsASearchForRestAtItsNextIteration) {
   }
 }
 
+TEST(SimulationTest, StepsAreThoseOfTheMotionOrWhereThereIsNoneOfTheLoads) {
+  SimulationOptions options = twenty_steps();
+  options.start_from_equilibrium = true;
+  EXPECT_EQ(simulate(swinging_cantilever(), {}, options, {}).steps, 20);
+  options.statics = true;
+  EXPECT_GT(simulate(swinging_cantilever(), {}, options, {}).steps, 0);
+}
+
 TEST(SimulationTest, WhatAForceThrowsEndsASearchForRest) {
   struct Refusal {};
   auto model = std::make_shared<BeamModel>(*swinging_cantilever());

@@ -348,6 +348,7 @@ TEST_F(CaseFileTest, ABodyIsHeldByExactlyOneSlidingJoint) {
 }
 
 TEST_F(CaseFileTest, TimeTablesMustIncrease) {
+  expect_error({"supports[0].motion=[]"}, "supports[0].motion", {"has no rows; expected rows ["});
   expect_error({"loads[0].time=[[0, 1], [1, 0], [1, 2]]"}, "loads[0].time[2]", {"must increase"}, full_case);
   expect_error({"loads[0].time=[[0, 1, 2]]"}, "loads[0].time[0]", {"[time, value]"}, full_case);
   expect_error({"output.cad.times=[0, 2]"}, "output.cad.times[1]", {"2 s", "0.7 s"}, full_case);
@@ -475,6 +476,9 @@ TEST_F(CaseFileTest, OverridesReplaceAddAndRemoveValues) {
   EXPECT_EQ(c.gravity, Eigen::Vector3d(0, 0, -1.62));
   EXPECT_EQ(std::get<CaseAxis::Polyline>(c.beams[0].axis.source).at(1), Eigen::Vector3d(1, 0, 0.02));
   EXPECT_TRUE(c.supports.empty());
+  EXPECT_EQ(read_valid(full_case, {"output=null", "output.every=null"}).output.probes.size(), 0u);
+  const std::size_t supports = read_valid(full_case).supports.size();
+  EXPECT_EQ(read_valid(full_case, {"supports[0]=null"}).supports.size(), supports - 1);
 }
 
 TEST_F(CaseFileTest, OverridesNameItemsByNumberOrName) {
