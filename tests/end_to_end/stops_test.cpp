@@ -170,6 +170,21 @@ TEST(StopsRun, ABufferThatDoesNotStickLetsTheBodyGoWhereItsForceEnds) {
   EXPECT_GT(total_drift(coarse.run) / total_drift(stops.run), 3);
 }
 
+// At 1.54 s the force of a body drawn out at 5 m/s is 0 but for round-off, and a step ends there.
+TEST(StopsRun, ABufferDoesNotPullWhereAStepEndsAsItsForceDoes) {
+  const StopRun stops =
+      run_stops(one_body(level, 1, R"("at": {"length": 1}, "motion": {"table": [[0, 1], [1, 6], [2, 1]]})",
+                         R"([{"beam": "rail", "at": {"length": 3}, "stiffness": 1000, "damping": 60}])",
+                         R"({"end_time": 2, "step": "1 ms"})"),
+                {"output.every=0.01"});
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  ASSERT_EQ(stops.times("leaves a stop").size(), 1u);
+  EXPECT_NEAR(stops.times("leaves a stop")[0], 1.54, 1e-6);
+  for (std::size_t i = 0; i < stops.run.rows.size(); ++i)
+    if (stops.run.value(i, "time [s]") > 1.541)
+      EXPECT_NEAR(stops.run.value(i, "bead.holding_force [N]"), 0, 1e-5) << i;
+}
+
 // x = v (exp(-p t) - exp(-q t))/(q - p), p and q the roots of m q^2 - c q + k: away where m x'' = -(k x + c
 // x') is zero, at q/p exp((p - q) t) = p/q.
 TEST(StopsRun, ADamperStifferThanTheStepsStopsABodyAndMakesNoEnergy) {
