@@ -526,6 +526,21 @@ TEST(RowsOfBodies, EndEndlesslyManyImpactsOfOneMoment) {
   EXPECT_LT(total_drift(stops.run), 1e-6);
 }
 
+/// 3.3 m - 3.2 m is less than 0.1 m by round-off.
+TEST(StopsRun, BodiesMayStartTheirGapApart) {
+  const std::vector<std::string> beside = {
+      R"(sliding_joints[0]={"body": "a", "beam": "rail", "at": {"length": 3.2}})",
+      R"(sliding_joints[1]={"body": "b", "beam": "rail", "at": {"length": 3.3}})"};
+  const auto with_gap = [&](const std::string& gap) {
+    return run_stops(two_bodies, {beside[0], beside[1], "stops[0].gap=" + gap});
+  };
+  const StopRun stops = with_gap("0.1");
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_EQ(stops.events.size(), 0u);
+  EXPECT_NEAR(stops.run.last("b.s [m]") - stops.run.last("a.s [m]"), 0.1, 1e-12);
+  EXPECT_TRUE(with_gap("0.1001").run.says("must be at most that"));
+}
+
 TEST(StopsRun, OnARingAStopIsMetFromBothSides) {
   const std::string ring =
       R"({"nurbs": {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4],
