@@ -518,6 +518,24 @@ TEST(StopsRun, WhatStartsAtAStopMayMoveAway) {
   EXPECT_EQ(stops.events.size(), 0u);
 }
 
+TEST(DrivesRun, ThatTurnAtTheEndOfTheBeamKeepTheirBody) {
+  const auto driven = [](const std::string& table) {
+    return run_stops(one_body(level, 5, R"("at": {"length": 1}, "motion": {"table": )" + table + "}", "[]",
+                              R"({"end_time": 2, "step": "1 ms"})"));
+  };
+  const StopRun turns = driven("[[0, 1], [1, 20], [1.5, 18]]"),
+                waits = driven("[[0, 1], [1, 20], [1.25, 20], [1.5, 18]]"),
+                ends = driven("[[0, 1], [1, 20]]");
+  for (const StopRun* run : {&turns, &waits}) {
+    ASSERT_EQ(run->run.code, 0) << run->run.messages;
+    EXPECT_EQ(run->events.size(), 0u);
+    EXPECT_NEAR(run->run.last("bead.s [m]"), 18, 1e-9);
+    EXPECT_NEAR(run->run.last("bead.z [m]"), 0, 1e-9);
+  }
+  ASSERT_EQ(ends.times("left the beam").size(), 1u);
+  EXPECT_NEAR(ends.times("left the beam")[0], 1, 1e-9);
+}
+
 /// Two heavy bodies catch three light ones at a stop: infinitely many impacts in no time.
 TEST(RowsOfBodies, EndEndlesslyManyImpactsOfOneMoment) {
   const std::vector<double> masses = {30, 2, 1, 1, 1};
