@@ -88,6 +88,15 @@ TEST(FoldWarning, NamesTheElementThatFoldsBackOnItself) {
   EXPECT_NEAR(hangs.last("energy.total [J]"), 2.7128, 1e-3);
 }
 
+// A restart out of balance gave damping 360 J back.
+TEST(EnergyOfDamping, IsNeverGivenBack) {
+  const CaseRun run = run_case("restart_out_of_balance.json");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_FALSE(run.says(warning)) << run.messages;
+  for (std::size_t i = 1; i < run.rows.size(); ++i)
+    EXPECT_GE(run.value(i, "energy.dissipated [J]"), run.value(i - 1, "energy.dissipated [J]")) << i;
+}
+
 TEST(EnergyWarning, RingsWithALoadWhoseWorkIsBooked) {
   // Far too long a step under a load that does work.
   const CaseRun coarse = run_file(
