@@ -75,14 +75,14 @@ bool is_pulled(const BeamSystem& system, const State& state, int stop) {
 }
 
 // Whether a step that begins there comes to the event: from where the state is clear of it, or after it has
-// left. What a hard stop pulls leaves.
+// left. What a stop pulls leaves.
 bool comes_to(const BeamSystem& system, const State& before, const State& after, const ContactEvent& event) {
   const double near = tolerance(system, before, event);
   const double from = beyond(system, before, before, event), to = beyond(system, before, after, event);
-  if (event.kind == ContactEvent::Kind::hits) return to > (from < -near ? 0 : near);
+  if (from < -near) return to > 0;
+  if (event.kind == ContactEvent::Kind::bodies_meet) return false;
   const bool hard = event.kind == ContactEvent::Kind::leaves && !stop_of(system, event.stop).buffer;
-  if (hard && from > near) return to > near;
-  return from < -near && to > 0;
+  return to > near && (!hard || from > near);
 }
 
 }  // namespace

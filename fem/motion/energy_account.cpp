@@ -90,7 +90,9 @@ double lost_in_step(const BeamSystem& system, const StepPath& step, bool first) 
     return (damped ? dissipated_between(system, from, to) : 0) + lost_energy(system, from, to);
   });
   const State& settled = step.within.empty() ? step.after : step.within.front();
-  return lost - (first ? unbalanced_work(system, step.before, settled) : 0);
+  if (!first) return lost;
+  // Nor does a transient give anything back.
+  return std::max(0.0, lost - unbalanced_work(system, step.before, settled));
 }
 
 double taken_in_step(const BeamSystem& system, const StepPath& step) {

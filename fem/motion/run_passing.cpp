@@ -168,7 +168,9 @@ bool pass_kink(Run& run) {
     if (run.at.system->mesh().plan.modes[kink.joint] == JointMode::free) continue;
     const std::optional<Crossing> end =
         end_reached(*run.at.system, run.at.state, kink.joint, kink.before > 0);
-    const bool leaves = end && kink.before != 0 && run.model->joints[kink.joint].leave_at_end;
+    const SlidingJoint& joint = run.model->joints[kink.joint];
+    const bool goes_on = run.at.state.t < joint.motion->rows().back().first;  // on the beam
+    const bool leaves = end && kink.before != 0 && !goes_on && joint.leave_at_end;
     if (!leaves || is_held(*run.model, *end))
       jumping = kink.joint;
     else if (!end_sliding(run, *end))

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "fem/system/observables.h"
 #include "solver/equilibrated_kkt.h"
@@ -19,6 +20,22 @@ constexpr double resolution = 1e-3;  // of the way
 constexpr double near_no_load = 0.02;
 constexpr int few_load_steps = 12, most_load_steps = 400;  // of one, and of all equilibria in between
 
+// What adds up to the angles of sections about the axis. A round section may turn freely in its place, and
+// nothing else depends on that.
+std::vector<int> turning_coordinates(const Mesh& mesh) {
+  std::vector<int> found;
+  const auto add = [&](int coordinate) {
+    if (coordinate >= 0) found.push_back(coordinate);
+  };
+  for (const std::vector<MeshNode>& nodes : mesh.nodes)
+    for (const MeshNode& node : nodes) {
+      add(node.angle_left);
+      if (node.angle_right != node.angle_left) add(node.angle_right);
+    }
+  for (const MeshSpan& span : mesh.spans) add(span.bubble);
+  return found;
+}
+
 class SnapSearch {
  public:
   SnapSearch(const BeamSystem& system, Loading from, Loading to, const std::function<bool()>& interrupted)
@@ -26,6 +43,7 @@ class SnapSearch {
         way_(system, from, to, interrupted),
         interrupted_(interrupted),
         scale_(system.coordinate_scale()),
+        turning_(turning_coordinates(system.mesh())),
         first_(from.load > 0 ? 0 : near_no_load) {}
 
   // How far on the way from `from` to `to` (0 and 1).
@@ -95,18 +113,20 @@ class SnapSearch {
   bool joined(const Point& a, const Point& b) const {
     constexpr double astray = 0.5, round_off = 1e-6;  // of the whole way
     if (distance(a.state, b.state) <= round_off * whole_) return true;
-    const Vector way = (b.state.q - a.state.q).cwiseQuotient(scale_);
+    const Vector way = seen(b.state.q - a.state.q);
     const auto leads = [&](const Vector& move) { return (move - way).norm() <= astray * way.norm(); };
     return leads(heading(a, b.part)) && leads(-heading(b, a.part));
   }
 
   // (n) The move that the tangent gives; zero where it is singular.
   Vector heading(const Point& from, double part) const {
+    constexpr double held = 1e-8;  // of what resists an angle, so that none is free
     const int n = system_.coordinate_count();
-    const EquilibratedKkt kkt(tangent_matrix(way_, at(from, from.part), {.stiffness = 1}), n);
+    Eigen::SparseMatrix<double> tangent = tangent_matrix(way_, at(from, from.part), {.stiffness = 1});
+    for (const int i : turning_) tangent.coeffRef(i, i) *= 1 + held;
+    const EquilibratedKkt kkt(tangent, n);
     if (!kkt.regular()) return Vector::Zero(n);
-    const Vector move = kkt.solve(residual(from, from.part) - residual(from, part)).head(n);
-    return move.cwiseQuotient(scale_);
+    return seen(kkt.solve(residual(from, from.part) - residual(from, part)).head(n));
   }
   Vector residual(const Point& point, double part) const {
     const int n = system_.coordinate_count(), m = system_.constraint_count();
@@ -120,14 +140,19 @@ class SnapSearch {
     return state;
   }
 
-  double distance(const State& a, const State& b) const {
-    return (a.q - b.q).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
+  double distance(const State& a, const State& b) const { return seen(a.q - b.q).lpNorm<Eigen::Infinity>(); }
+  // (n) Over the scales, without what turns sections in their places.
+  Vector seen(const Vector& move) const {
+    Vector over = move.cwiseQuotient(scale_);
+    for (const int i : turning_) over[i] = 0;
+    return over;
   }
 
   const BeamSystem& system_;
   const LoadedBetween way_;
   const std::function<bool()>& interrupted_;
   const Vector scale_;
+  const std::vector<int> turning_;
   const double first_;
   double whole_ = 0;
   int load_steps_left_ = most_load_steps;

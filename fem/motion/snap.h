@@ -19,8 +19,8 @@ struct LoadedState {
 /// not lead from one to the other. What is under a fiftieth of the way from no load is left alone: what hangs
 /// loosely finds its shape there. Loading 0 where what acts besides loads (tension, the lengths of
 /// connectors) buckles what is drawn, and loads could not have bent it so far. Nothing as well where
-/// equilibria in between are not found. `from` need not be in equilibrium. Throws Interruption where
-/// `interrupted` says so.
+/// equilibria in between are not found. Sections that turn in their places alone are left out. `from` need
+/// not be in equilibrium. Throws Interruption where `interrupted` says so.
 std::optional<Loading> find_snap(const BeamSystem& system, const LoadedState& from, const LoadedState& to,
                                  const std::function<bool()>& interrupted);
 

@@ -54,7 +54,7 @@ class Stops {
                                                in_quotes(from_.beam) +
                                                " are between the bodies, which cannot come nearer than " +
                                                text_of(least) + " m: give at least that, or more elements");
-    if (apart < from_.gap)
+    if (apart < from_.gap - same_place * L)
       findings_.error(from_.path + ".gap", "is " + text_of(from_.gap) + " m, but bodies " +
                                                in_quotes(name(a)) + " and " + in_quotes(name(b)) + " start " +
                                                text_of(apart) + " m apart; must be at most that");

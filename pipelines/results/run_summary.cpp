@@ -124,6 +124,13 @@ void LeastStrain::look_at(std::span<const ElementRecord> elements, const std::st
         *this = {e.strain[i], of_beam, e.s_start + (e.s_end - e.s_start) * i / 3, at_time};
 }
 
+void Fold::look_at(std::span<const ElementRecord> elements, const std::string& of_beam, double at_time) {
+  for (const ElementRecord& e : elements) {
+    const double share = e.axial_mismatch / (1 + 2 * std::max(0.0, e.strain.maxCoeff()));
+    if (share > value) *this = {share, of_beam, (e.s_start + e.s_end) / 2, at_time};
+  }
+}
+
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
   // Names from files need not be valid UTF-8: what is not is replaced.
   const std::string text = to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -217,9 +217,10 @@ class Run {
       event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
     }
     std::vector<Diagnostic> warnings = shared_pull_warnings(case_.path, outputs.shared_pulls().coarse());
+    const auto pressed = compression_warning(case_.path, outputs.least_strain());
     for (const auto& warning :
-         {compression_warning(case_.path, outputs.least_strain()), divergence_warning(case_.path, simulated),
-          snap_warning(case_.path, simulated, built_.model),
+         {pressed ? pressed : fold_warning(case_.path, outputs.fold()),
+          divergence_warning(case_.path, simulated), snap_warning(case_.path, simulated, built_.model),
           mechanism_warning(case_.path, simulated, built_.frame), energy_warning(case_, simulated),
           short_steps_note(case_.path, simulated),
           summary_.modes ? fewer_modes_note(case_, *summary_.modes) : std::nullopt})

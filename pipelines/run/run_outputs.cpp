@@ -55,6 +55,7 @@ void RunOutputs::look_at(std::span<const ElementRecord> elements, int beam, doub
   const std::string& name = built_.model.beams[beam].name;
   mismatch_.look_at(elements, name, time);
   least_strain_.look_at(elements, name, time);
+  fold_.look_at(elements, name, time);
 }
 
 template <class Work>

@@ -49,6 +49,7 @@ class RunOutputs {
   /// The largest over all frames.
   const Mismatch& axial_mismatch() const { return mismatch_; }
   const LeastStrain& least_strain() const { return least_strain_; }
+  const Fold& fold() const { return fold_; }
   const SharedPulls& shared_pulls() const { return pulls_; }
   const std::vector<RunExtreme>& extremes() const { return extremes_.list(); }
   /// Wall time spent here [s].
@@ -75,6 +76,7 @@ class RunOutputs {
   std::vector<Diagnostic> diagnostics_;
   Mismatch mismatch_;
   LeastStrain least_strain_;
+  Fold fold_;
   SharedPulls pulls_;
   RunExtremes extremes_;
 };

@@ -63,6 +63,16 @@ std::optional<Diagnostic> compression_warning(const std::filesystem::path& file,
           " s: do not trust the result; take more elements there, and see whether the material is that soft"};
 }
 
+std::optional<Diagnostic> fold_warning(const std::filesystem::path& file, const Fold& fold) {
+  constexpr double half_gone = 0.25;  // half of |r_s|^2 is gone; coarse meshes lack a quarter
+  if (fold.value < half_gone) return {};
+  return Diagnostic{Severity::warning, file.string() + ": analysis",
+                    "beam \"" + fold.beam + "\" folds back on itself inside an element, at s = " +
+                        text_of(fold.s, 6) + " m at t = " + text_of(fold.time, 6) +
+                        " s: do not trust the result; take another number of elements, more as a rule, or "
+                        "a continuous slope of a body beside it"};
+}
+
 std::vector<Diagnostic> shared_pull_warnings(const std::filesystem::path& file,
                                              const std::vector<SharedPull>& coarse) {
   std::vector<Diagnostic> warnings;

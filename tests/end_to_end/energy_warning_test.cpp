@@ -77,6 +77,26 @@ TEST(CompressionWarning, NamesThePlaceWhereAnElementIsPressedToNothing) {
   EXPECT_TRUE(run.says(warning)) << run.messages;
 }
 
+// Statics ends where the element beside the body has turned round, 0.7 J above where the rope hangs.
+TEST(FoldWarning, NamesTheElementThatFoldsBackOnItself) {
+  const CaseRun folded = run_case("slack_ropes_fold.json"),
+                hangs = run_case("slack_ropes_fold.json", {"beams[0].elements.count=64"});
+  for (const CaseRun* run : {&folded, &hangs}) ASSERT_EQ(run->code, 0) << run->messages;
+  EXPECT_TRUE(folded.says("beam \"r\" folds back on itself inside an element, at s = 7.2"))
+      << folded.messages;
+  EXPECT_FALSE(hangs.says(warning)) << hangs.messages;
+  EXPECT_NEAR(hangs.last("energy.total [J]"), 2.7128, 1e-3);
+}
+
+// A restart out of balance gave damping 360 J back.
+TEST(EnergyOfDamping, IsNeverGivenBack) {
+  const CaseRun run = run_case("restart_out_of_balance.json");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_FALSE(run.says(warning)) << run.messages;
+  for (std::size_t i = 1; i < run.rows.size(); ++i)
+    EXPECT_GE(run.value(i, "energy.dissipated [J]"), run.value(i - 1, "energy.dissipated [J]")) << i;
+}
+
 TEST(EnergyWarning, RingsWithALoadWhoseWorkIsBooked) {
   // Far too long a step under a load that does work.
   const CaseRun coarse = run_file(

@@ -168,6 +168,32 @@ TEST(SnapThrough, IsNotToldOfWhatMovesFar) {
   EXPECT_FALSE(hanging.says("buckles")) << hanging.messages;
 }
 
+// Along these axes the roll came out otherwise from load to load.
+TEST(SnapThrough, IsNotToldOfARoundRodThatMayRollInItsPlace) {
+  const auto rod = [](const std::string& end, const std::string& second, double at, const std::string& load,
+                      const std::vector<std::string>& overrides = {}) {
+    return run_text(
+        R"({ "nurbeam": 1, "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], )" + end +
+            R"(] }, "section": { "radius": 0.01 }, "material": { "name": "steel" }, "torsion": true,
+        "elements": { "count": 10 } }],
+      "supports": [{ "beam": "b", "at": "start", "type": "pinned" }, { "beam": "b", "at": "end", )" +
+            second + R"( }], "loads": [{ "beam": "b", "at": { "fraction": )" + std::to_string(at) +
+            R"( }, "force": )" + load + R"( }], "analysis": { "type": "static" },
+      "output": { "report": false } })",
+        overrides);
+  };
+  for (const char* const end : {"[2, 0, 0]", "[1.2, -1.6, 0]", "[1.7320508075688772, 0, 1]"}) {
+    const CaseRun bent = rod(end, R"("type": "pinned")", 0.4, "[0, 0, -60]");
+    ASSERT_EQ(bent.code, 0) << end << bent.messages;
+    EXPECT_EQ(bent.messages, "") << end;
+  }
+  // Pressed along its axis it buckles with all that.
+  const CaseRun buckled = rod("[1.2, -1.6, 0]", R"("type": "guided", "direction": [0.6, -0.8, 0])", 1,
+                              "[-2640, 3520, 0]", {"gravity=[0, 0, 0]"});
+  ASSERT_EQ(buckled.code, 0) << buckled.messages;
+  EXPECT_TRUE(buckled.says("buckles under 0.92")) << buckled.messages;
+}
+
 // ---- Struts ----
 
 /// A steel bar of 2 m along z, clamped at its start A; its middle is p, its end e.

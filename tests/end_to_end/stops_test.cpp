@@ -170,6 +170,21 @@ TEST(StopsRun, ABufferThatDoesNotStickLetsTheBodyGoWhereItsForceEnds) {
   EXPECT_GT(total_drift(coarse.run) / total_drift(stops.run), 3);
 }
 
+// At 1.54 s the force of a body drawn out at 5 m/s is 0 but for round-off, and a step ends there.
+TEST(StopsRun, ABufferDoesNotPullWhereAStepEndsAsItsForceDoes) {
+  const StopRun stops =
+      run_stops(one_body(level, 1, R"("at": {"length": 1}, "motion": {"table": [[0, 1], [1, 6], [2, 1]]})",
+                         R"([{"beam": "rail", "at": {"length": 3}, "stiffness": 1000, "damping": 60}])",
+                         R"({"end_time": 2, "step": "1 ms"})"),
+                {"output.every=0.01"});
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  ASSERT_EQ(stops.times("leaves a stop").size(), 1u);
+  EXPECT_NEAR(stops.times("leaves a stop")[0], 1.54, 1e-6);
+  for (std::size_t i = 0; i < stops.run.rows.size(); ++i)
+    if (stops.run.value(i, "time [s]") > 1.541)
+      EXPECT_NEAR(stops.run.value(i, "bead.holding_force [N]"), 0, 1e-5) << i;
+}
+
 // x = v (exp(-p t) - exp(-q t))/(q - p), p and q the roots of m q^2 - c q + k: away where m x'' = -(k x + c
 // x') is zero, at q/p exp((p - q) t) = p/q.
 TEST(StopsRun, ADamperStifferThanTheStepsStopsABodyAndMakesNoEnergy) {
@@ -503,12 +518,45 @@ TEST(StopsRun, WhatStartsAtAStopMayMoveAway) {
   EXPECT_EQ(stops.events.size(), 0u);
 }
 
+TEST(DrivesRun, ThatTurnAtTheEndOfTheBeamKeepTheirBody) {
+  const auto driven = [](const std::string& table) {
+    return run_stops(one_body(level, 5, R"("at": {"length": 1}, "motion": {"table": )" + table + "}", "[]",
+                              R"({"end_time": 2, "step": "1 ms"})"));
+  };
+  const StopRun turns = driven("[[0, 1], [1, 20], [1.5, 18]]"),
+                waits = driven("[[0, 1], [1, 20], [1.25, 20], [1.5, 18]]"),
+                ends = driven("[[0, 1], [1, 20]]");
+  for (const StopRun* run : {&turns, &waits}) {
+    ASSERT_EQ(run->run.code, 0) << run->run.messages;
+    EXPECT_EQ(run->events.size(), 0u);
+    EXPECT_NEAR(run->run.last("bead.s [m]"), 18, 1e-9);
+    EXPECT_NEAR(run->run.last("bead.z [m]"), 0, 1e-9);
+  }
+  ASSERT_EQ(ends.times("left the beam").size(), 1u);
+  EXPECT_NEAR(ends.times("left the beam")[0], 1, 1e-9);
+}
+
 /// Two heavy bodies catch three light ones at a stop: infinitely many impacts in no time.
 TEST(RowsOfBodies, EndEndlesslyManyImpactsOfOneMoment) {
   const std::vector<double> masses = {30, 2, 1, 1, 1};
   const StopRun stops = run_stops(row(masses, 0.2, 0, 0.2), {"analysis.end_time=9"});
   ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
   EXPECT_LT(total_drift(stops.run), 1e-6);
+}
+
+/// 3.3 m - 3.2 m is less than 0.1 m by round-off.
+TEST(StopsRun, BodiesMayStartTheirGapApart) {
+  const std::vector<std::string> beside = {
+      R"(sliding_joints[0]={"body": "a", "beam": "rail", "at": {"length": 3.2}})",
+      R"(sliding_joints[1]={"body": "b", "beam": "rail", "at": {"length": 3.3}})"};
+  const auto with_gap = [&](const std::string& gap) {
+    return run_stops(two_bodies, {beside[0], beside[1], "stops[0].gap=" + gap});
+  };
+  const StopRun stops = with_gap("0.1");
+  ASSERT_EQ(stops.run.code, 0) << stops.run.messages;
+  EXPECT_EQ(stops.events.size(), 0u);
+  EXPECT_NEAR(stops.run.last("b.s [m]") - stops.run.last("a.s [m]"), 0.1, 1e-12);
+  EXPECT_TRUE(with_gap("0.1001").run.says("must be at most that"));
 }
 
 TEST(StopsRun, OnARingAStopIsMetFromBothSides) {
