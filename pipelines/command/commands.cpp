@@ -188,7 +188,8 @@ int manual_command(const Arguments&, Streams streams) {
 constexpr std::size_t any_number = std::string::npos;
 
 const CommandOption set_option{"--set", "path=value",
-                               "changes the case before it is checked; null removes a key or an item", false, true};
+                               "changes the case before it is checked; null removes a key or an item", false,
+                               true};
 
 const Command inspect_entry{
     "inspect",
