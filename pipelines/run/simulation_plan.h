@@ -22,6 +22,7 @@ std::optional<Diagnostic> fewer_modes_note(const CaseFile& case_file, const Mode
 
 /// A warning where an element is compressed to nothing; `file` heads it.
 std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain);
+/// And where one folds back on itself.
 std::optional<Diagnostic> fold_warning(const std::filesystem::path& file, const Fold& fold);
 
 /// Warnings where elements beside supports are too long for what these share of a pull; `file` heads them.
