@@ -174,29 +174,34 @@ bool NearKkt::answer(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, 
   const int beyond = start(rows_) - start(inner_);
   Eigen::VectorXd left = near_part(x, y), open = near_part(top, bottom).head(start(rows_));
   open.tail(beyond).setZero();
-  const Eigen::VectorXd right = open - open_rows(Eigen::VectorXd::Zero(open.size()), left);
+  const Eigen::VectorXd present = -open_rows(Eigen::VectorXd::Zero(open.size()), left),
+                        right = open + present;
   Eigen::VectorXd correction = open.head(start(inner_));
   solve(correction);
   if (!correction.allFinite()) return false;
   left.head(correction.size()) += correction;
   Eigen::ArrayXd enough = round_off(right, left);
-  enough.tail(beyond) = faded(open, correction).tail(beyond);
+  enough.tail(beyond) = faded(open, present, correction).tail(beyond);
   if (!correct(right, enough, left)) return false;
   put_back(left, x, y);
   return true;
 }
 
-// A small part of what was open in the rows of coordinates, over the root of their diagonal entries, so that
-// forces and moments compare; and of what a correction is in those of constraints.
-Eigen::ArrayXd NearKkt::faded(const Eigen::VectorXd& open, const Eigen::VectorXd& correction) const {
-  constexpr double small = 1e-4;
+// A small part of what was open in the rows of coordinates, or a slight one of what was closed there, over
+// the root of their diagonal entries, so that forces and moments compare; and of what a correction is in
+// those of constraints.
+Eigen::ArrayXd NearKkt::faded(const Eigen::VectorXd& open, const Eigen::VectorXd& present,
+                              const Eigen::VectorXd& correction) const {
+  constexpr double small = 1e-4, slight = 1e-6;
   const double largest = largest_coordinate(correction);
   Eigen::ArrayXd rows = row_sizes_.head(open.size()).array() * largest;
   double of_open = 0;
   for (int k = 0; k < open.size(); ++k) {
     if (!is_coordinate(k)) continue;
     rows[k] = std::sqrt(std::abs(blocks_[fronts_.index(k, k)]));
-    if (rows[k] > 0) of_open = std::max(of_open, std::abs(open[k]) / rows[k]);
+    if (rows[k] > 0)
+      of_open =
+          std::max({of_open, std::abs(open[k]) / rows[k], slight / small * std::abs(present[k]) / rows[k]});
   }
   for (int k = 0; k < open.size(); ++k)
     if (is_coordinate(k)) rows[k] *= of_open;

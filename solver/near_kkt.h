@@ -28,8 +28,8 @@ class NearKkt {
   [[nodiscard]] bool correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
                              Eigen::VectorXd& y) const;
   /// Corrects x and y near there by what answers that rows are open by top (n) and bottom (m), to round-off;
-  /// the rows next to them must stay as open as they are, to 1e-4 of the largest. Returns as
-  /// correct(), with its precondition.
+  /// the rows next to them must stay as open as they are, to 1e-4 of the largest or to 1e-6 of what is in
+  /// balance there. Returns as correct(), with its precondition.
   [[nodiscard]] bool answer(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
                             Eigen::VectorXd& y) const;
 
@@ -49,7 +49,8 @@ class NearKkt {
   void take(const double* values, int levels);
   bool eliminate(int level);
   void solve(Eigen::VectorXd& rows) const;
-  Eigen::ArrayXd faded(const Eigen::VectorXd& open, const Eigen::VectorXd& correction) const;
+  Eigen::ArrayXd faded(const Eigen::VectorXd& open, const Eigen::VectorXd& present,
+                       const Eigen::VectorXd& correction) const;
   bool correct(const Eigen::VectorXd& right, const Eigen::ArrayXd& enough, Eigen::VectorXd& left) const;
   Eigen::VectorXd near_part(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom) const;
   void put_back(const Eigen::VectorXd& part, Eigen::VectorXd& top, Eigen::VectorXd& bottom) const;
