@@ -1,5 +1,7 @@
 // A motion as a new mesh takes it over, before velocities are projected and energy is kept.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -58,35 +60,74 @@ class KeptCoordinates {
   int target_ = 0, source_ = 0, count_ = 0;  // not yet copied
 };
 
+// A node, as it moves on or with the curve of another mesh.
+struct NodeOnCurve {
+  double s, rate;  // its place [m], [m/s]
+  MaterialPoint<3> point;
+
+  NodeOnCurve(const BeamSystem& from, const State& state, int beam, const MeshNode& node)
+      : s(node.joint >= 0 ? state.q[from.mesh().joints[node.joint].place] : node.s),
+        rate(node.joint >= 0 ? place_rate(from, state, node.joint) : 0),
+        point(material_point(from, state, beam, s)) {}
+
+  Eigen::Vector3d velocity() const { return point.velocity + rate * point.rs; }
+  Eigen::Vector3d slope_rate() const { return point.velocity_s + rate * point.rss; }
+};
+
+// A motion a moment before and after a state.
+struct Around {
+  State before, after;
+  double length = 1;  // between them [s]
+
+  Around(const BeamSystem& system, const State& state) : before(state), after(state) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const MeshSpan& span : system.mesh().spans)
+      shortest = std::min(shortest, span.end(state.q) - span.start(state.q));
+    constexpr double far = 1e-3;  // of that length, in that time
+    const double rate = state.v.lpNorm<Eigen::Infinity>() / shortest +
+                        std::sqrt(state.a.lpNorm<Eigen::Infinity>() / shortest);
+    if (rate > 0) length = far / rate;
+    go_on(before, -length / 2);
+    go_on(after, length / 2);
+  }
+
+ private:
+  static void go_on(State& state, double time) {
+    state.q += time * state.v + time * time / 2 * state.a;
+    state.v += time * state.a;
+  }
+};
+
 // `i`: of the nodes of the beam in the new mesh.
-void place_node(const BeamSystem& from, const State& state, const BeamSystem& to, int beam, int i,
-                State& next) {
+void place_node(const BeamSystem& from, const State& state, const Around& around, const BeamSystem& to,
+                int beam, int i, State& next) {
   const int D = from.dimension();
   const MeshNode& node = to.mesh().nodes[beam][i];
-  const double s = node.joint >= 0 ? state.q[from.mesh().joints[node.joint].place] : node.s;
-  const MaterialPoint<3> p = material_point(from, state, beam, s);
-  const double rate = node.joint >= 0 ? place_rate(from, state, node.joint) : 0;
-  next.q.segment(node.r, D) = p.r.head(D);
-  next.v.segment(node.r, D) = (p.velocity + rate * p.rs).head(D);
-  const Eigen::Vector3d slope_rate = p.velocity_s + rate * p.rss;
+  const NodeOnCurve now(from, state, beam, node), before(from, around.before, beam, node),
+      after(from, around.after, beam, node);
+  next.q.segment(node.r, D) = now.point.r.head(D);
+  next.v.segment(node.r, D) = now.velocity().head(D);
+  next.a.segment(node.r, D) = (after.velocity() - before.velocity()).head(D) / around.length;
   for (int slope : {node.slope_left, node.slope_right}) {
-    next.q.segment(slope, D) = p.rs.head(D);
-    next.v.segment(slope, D) = slope_rate.head(D);
+    next.q.segment(slope, D) = now.point.rs.head(D);
+    next.v.segment(slope, D) = now.slope_rate().head(D);
+    next.a.segment(slope, D) = (after.slope_rate() - before.slope_rate()).head(D) / around.length;
   }
   // What the node sees is the spin of the material and, as it moves over it, the twist.
   if (node.angle_left >= 0) {
-    const Eigen::Matrix3d section = section_point(from, state, beam, s).triad.matrix();
-    const double spin = material_spin(from, state, beam, s) + rate * section_twist(from, state, beam, s);
+    const Eigen::Matrix3d section = section_point(from, state, beam, now.s).triad.matrix();
+    const double spin =
+        material_spin(from, state, beam, now.s) + now.rate * section_twist(from, state, beam, now.s);
     for (const int end : {0, 1}) {
       const Eigen::Matrix3d& chart = section_chart(to, beam, i, end);
       const int angle = end == 0 ? node.angle_right : node.angle_left;
       next.q[angle] = angle_in(chart, section);
-      next.v[angle] = spin - spin_row<double>(chart, p.rs).dot(slope_rate);
+      next.v[angle] = spin - spin_row<double>(chart, now.point.rs).dot(now.slope_rate());
     }
   }
   if (node.place < 0) return;
-  next.q[node.place] = s;
-  next.v[node.place] = rate;
+  next.q[node.place] = now.s;
+  next.v[node.place] = now.rate;
 }
 
 // Takes those that both meshes have, and returns the others: beams and indices.
@@ -150,7 +191,10 @@ State interpolated(const BeamSystem& from, const State& state, const BeamSystem&
   if (next.lambda.size() != to.constraint_count()) next.lambda.setZero(to.constraint_count());
   const Mesh &old = from.mesh(), &mesh = to.mesh();
   const std::vector<std::pair<int, int>> added = take_nodes(state, old, mesh, next);
-  for (const auto& [beam, node] : added) place_node(from, state, to, beam, node, next);
+  if (!added.empty()) {
+    const Around around(from, state);
+    for (const auto& [beam, node] : added) place_node(from, state, around, to, beam, node, next);
+  }
   take_bodies(state, old, mesh, next);
   set_bubbles(from, state, to, next);
   for (const auto& [beam, node] : added) match_axial_strain(from, state, to, beam, node, next);

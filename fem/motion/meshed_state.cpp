@@ -40,7 +40,7 @@ std::optional<ChangedMesh> changed(const MeshedState& at, const NextPlan& next, 
   std::vector<int> around = changed_unknowns(*at.system, *to);
   return ChangedMesh{{std::move(to), std::move(moved->state)},
                      std::move(moved->impulse),
-                     std::move(moved->moves),
+                     std::move(moved->keeping),
                      std::move(around)};
 }
 
@@ -79,11 +79,11 @@ std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool a
 }
 
 std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next, const BeamSystem& neighbour,
-                                        const std::vector<EnergyMove>& moves, NeighbourSolvers& solvers) {
+                                        const EnergyKeeping& keeping, NeighbourSolvers& solvers) {
   return go_on_there(at, changed(
                              at, next, false, &neighbour,
                              [&](const BeamSystem& to) {
-                               return projected_like(*at.system, at.state, to, moves, solvers);
+                               return projected_like(*at.system, at.state, to, keeping, solvers);
                              }));
 }
 

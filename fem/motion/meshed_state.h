@@ -20,9 +20,9 @@ struct MeshedState {
 /// A motion on another mesh.
 struct ChangedMesh {
   MeshedState now;
-  Eigen::VectorXd impulse = {};        ///< of the projection (see Transferred); empty where there was none
-  std::vector<EnergyMove> moves = {};  ///< see Transferred
-  std::vector<int> around = {};        ///< unknowns that changed (changed_unknowns)
+  Eigen::VectorXd impulse = {};  ///< of the projection (see Transferred); empty where there was none
+  EnergyKeeping keeping = {};    ///< see Transferred
+  std::vector<int> around = {};  ///< unknowns that changed (changed_unknowns)
 };
 
 /// On the mesh that length control asks for; `at_rest`: joints are held there, and there are no velocities to
@@ -34,11 +34,11 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
 
 /// Goes on there.
 [[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
-/// The same as a neighbouring motion, which has been moved so to keep its energy, and is one of this system
+/// The same as a neighbouring motion, whose energy has been kept so, and is one of this system
 /// now.
 [[nodiscard]] std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
                                                       const BeamSystem& neighbour,
-                                                      const std::vector<EnergyMove>& moves,
+                                                      const EnergyKeeping& keeping,
                                                       NeighbourSolvers& solvers);
 
 /// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,

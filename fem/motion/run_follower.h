@@ -27,7 +27,7 @@ struct FollowedStep {
 /// A change of the mesh by projected().
 struct FollowedTransfer {
   const MeshedState& before;
-  const std::vector<EnergyMove>& moves;
+  const EnergyKeeping& keeping;
   /// The mesh of a neighbouring motion behind it.
   std::function<std::unique_ptr<BeamSystem>(const MeshedState&)> replanned;
 };

@@ -30,7 +30,7 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
   const auto plan_of = [&](const MeshedState& of) { return plan_like(next.plan, *of.system, of.state); };
   NeighbourSolvers solvers;
   const auto make = [&](MeshedState& of) {
-    return !change_mesh_like(of, {next.change, next.joint, plan_of(of)}, system, changed.moves, solvers);
+    return !change_mesh_like(of, {next.change, next.joint, plan_of(of)}, system, changed.keeping, solvers);
   };
   const auto change = [&, first = true](MeshedState& of) mutable {
     // The run's own motion goes before those that are found beside it.
@@ -41,7 +41,7 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
   const std::vector<bool> held(run.model->joints.size(), false);
   run.observer.follower->transfers(
       run.at,
-      {before, changed.moves,
+      {before, changed.keeping,
        [&](const MeshedState& of) { return of.system->replanned(plan_of(of), held, &system); }},
       change);
 }

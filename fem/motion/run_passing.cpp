@@ -32,11 +32,11 @@ bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
   return true;
 }
 
-// A joint's body in the next element: with the moves that keep the energy, or those of a neighbouring motion
-// where they are known. `neighbour`, which may be null: see BeamSystem::replanned. False where velocities
+// A joint's body in the next element: with its energy kept, or as of a neighbouring motion
+// where that is known. `neighbour`, which may be null: see BeamSystem::replanned. False where velocities
 // cannot be projected.
 bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighbour,
-             std::optional<std::vector<EnergyMove>>& moves, NeighbourSolvers& solvers) {
+             std::optional<EnergyKeeping>& keeping, NeighbourSolvers& solvers) {
   const SlidingJoint& joint = at.system->model().joints[crossing.joint];
   const double beyond = landing_tolerance(at.system->model(), crossing.joint);
   at.state.q[at.system->mesh().joints[crossing.joint].place] =
@@ -50,10 +50,10 @@ bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighb
   }
   // Curvature and twist jump from element to element, and with them the motion of a body that follows the
   // section: an impact.
-  std::optional<Transferred> moved = moves ? projected_like(*at.system, at.state, *next, *moves, solvers)
-                                           : projected(*at.system, at.state, *next);
+  std::optional<Transferred> moved = keeping ? projected_like(*at.system, at.state, *next, *keeping, solvers)
+                                             : projected(*at.system, at.state, *next);
   if (!moved) return false;
-  moves = std::move(moved->moves);
+  keeping = std::move(moved->keeping);
   at = {std::move(next), std::move(moved->state)};
   return true;
 }
@@ -130,11 +130,11 @@ bool rests_by(const Run& run, const StepEvent& event) {
 bool step_over(Run& run, const Crossing& crossing) {
   const bool follows_section = run.model->joints[crossing.joint].follows_section;
   const double before = follows_section ? run.mechanical_energy() : 0;
-  std::optional<std::vector<EnergyMove>> moves;  // of the run, which is the first to go over
-  std::shared_ptr<const BeamSystem> over;        // its own
+  std::optional<EnergyKeeping> keeping;    // of the run, which is the first to go over
+  std::shared_ptr<const BeamSystem> over;  // its own
   NeighbourSolvers solvers;
   const auto pass = [&](MeshedState& at) {
-    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), over.get(), moves,
+    return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), over.get(), keeping,
                    solvers);
   };
   const MeshedState own = run.at;

@@ -3,58 +3,23 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numeric>
 #include <set>
 
-#include "fem/motion/carried_sections.h"
+#include "fem/motion/balanced_nodes.h"
 #include "fem/motion/least_move.h"
+#include "fem/motion/new_elements.h"
+#include "fem/motion/relative_motion.h"
+#include "fem/motion/tangent_blocks.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/momentum.h"
 #include "fem/system/observables.h"
 #include "fem/system/same_elements.h"
-#include "fem/system/with_assembly.h"
 #include "solver/consistent.h"
 
 namespace nurbeam {
 
 namespace {
-
-// What a tangent has in the columns of some coordinates: in their rows, and in those of constraints.
-class TangentBlocks {
- public:
-  TangentBlocks(const BeamSystem& system, const State& state, const TangentWeights& weights,
-                const std::vector<int>& coordinates) {
-    const SparsePattern& pattern = system.tangent_pattern();
-    const int n = system.coordinate_count(), m = system.constraint_count();
-    const int *starts = pattern.column_starts().data(), *rows = pattern.rows().data();
-    std::vector<bool> wanted(static_cast<std::size_t>(n + m), false);
-    std::fill(wanted.begin() + n, wanted.end(), true);
-    std::vector<int> place(static_cast<std::size_t>(n + m), -1);
-    std::iota(place.begin() + n, place.end(), 0);
-    // Nobody looks at the other columns.
-    const auto values = std::make_unique_for_overwrite<double[]>(pattern.rows().size());
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      wanted[coordinates[k]] = true;
-      place[coordinates[k]] = static_cast<int>(k);
-      std::fill(values.get() + starts[coordinates[k]], values.get() + starts[coordinates[k] + 1], 0.0);
-    }
-    system.tangent_near(state, weights, wanted, values.get());
-    const auto size = static_cast<Eigen::Index>(coordinates.size());
-    square_.setZero(size, size);
-    gradient_.setZero(m, size);
-    for (Eigen::Index k = 0; k < size; ++k)
-      for (int i = starts[coordinates[k]]; i < starts[coordinates[k] + 1]; ++i)
-        if (place[rows[i]] >= 0) (rows[i] < n ? square_ : gradient_)(place[rows[i]], k) = values[i];
-  }
-
-  const Eigen::MatrixXd& coordinates() const { return square_; }
-  const Eigen::MatrixXd& gradient() const { return gradient_; }
-
- private:
-  Eigen::MatrixXd square_, gradient_;
-};
 
 // A motion on a new mesh whose elements cannot hold it exactly.
 class Remap {
@@ -78,10 +43,20 @@ class Remap {
     return Transferred{std::move(next), projection.impulse};
   }
 
+  // Lets velocities take away what there is too much of the energy; whether they can.
+  bool keep_energy_by_velocities(Transferred& next) const {
+    const RelativeMotion motion = relative_motion(from_, to_, next.state);
+    const std::optional<double> growth = motion.growth(excess(next.state));
+    if (!growth) return false;
+    next.state.v(motion.coordinates) += *growth * motion.velocities;
+    next.keeping.by_velocities = true;
+    return true;
+  }
+
   // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
   // axial strain that the old ones had not, and where these cannot bring it, their neighbours too, ring by
   // ring.
-  void keep_energy(const SystemEnergy& old, Transferred& next) const {
+  void keep_energy_by_moves(const SystemEnergy& old, Transferred& next) const {
     constexpr double accuracy = 1e-10;
     const double enough =
         accuracy * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
@@ -106,15 +81,16 @@ class Remap {
       if (!moved) return false;
       next = std::move(*moved);
     }
-    next.moves = moves;
+    next.keeping.moves = moves;
     return true;
   }
 
   // The same with all that is between; nothing where it is more than that.
-  std::optional<TransferPath> path(const std::vector<EnergyMove>& moves) const {
+  std::optional<TransferPath> path(const EnergyKeeping& keeping) const {
     if (!bodies_are_on_axes()) return std::nullopt;
+    const std::vector<EnergyMove>& moves = keeping.moves;
     TransferPath path;
-    State start = interpolated(from_, state_, to_);
+    State start = keeping.by_velocities ? balanced(from_, state_, to_) : interpolated(from_, state_, to_);
     std::optional<Transferred> next;
     for (std::size_t i = 0;; ++i) {
       put_bodies(start);
@@ -122,6 +98,7 @@ class Remap {
       next = with_velocities(start);
       if (!next) return std::nullopt;
       path.stages.push_back(*next);
+      if (keeping.by_velocities) path.excess = excess(next->state);
       if (i == moves.size()) return path;
       const EnergyMove& move = moves[i];
       const double e = excess(next->state);
@@ -194,7 +171,7 @@ class Remap {
       if (!(std::abs(left) < std::abs(e))) continue;
       next.state = std::move(trial->state);
       next.impulse = std::move(trial->impulse);
-      next.moves.push_back({rings, halvings, mu});
+      next.keeping.moves.push_back({rings, halvings, mu});
       e = left;
       return true;
     }
@@ -215,26 +192,7 @@ class Remap {
       const Eigen::MatrixXd block = all ? whole : allowed.transpose() * whole * allowed;
       return Eigen::MatrixXd((block + block.transpose()) / 2);
     };
-    return {part(stiffness), part(mass), allowed.transpose() * force_on(free, still)};
-  }
-
-  // What acts on some coordinates where there are no multipliers.
-  Eigen::VectorXd force_on(const std::vector<int>& coordinates, const State& still) const {
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(to_.coordinate_count()), none(to_.constraint_count());
-    std::vector<bool> wanted(static_cast<std::size_t>(to_.coordinate_count()), false);
-    for (const int coordinate : coordinates) wanted[coordinate] = true;
-    const auto is_wanted = [&](int dof) { return dof >= 0 && wanted[dof]; };
-    with_assembly(to_, [&]<int D>(const Assembly<D>& assembly) {
-      std::vector<int> beside;
-      for (int i = 0; i < static_cast<int>(assembly.elements().size()); ++i) {
-        const MeshElement<D>& e = assembly.elements()[i];
-        bool acts = std::any_of(e.dofs.begin(), e.dofs.end(), is_wanted);
-        if (e.twist) acts = acts || std::any_of(e.twist->dofs.begin(), e.twist->dofs.end(), is_wanted);
-        if (acts) beside.push_back(i);
-      }
-      assembly.add_residual_of(beside, still, force, none);
-    });
-    return force(coordinates);
+    return {part(stiffness), part(mass), allowed.transpose() * residual_of(to_, still, free)};
   }
 
   // One move of the free coordinates, the least in the mass norm that takes the excess e of the energy away;
@@ -262,13 +220,8 @@ class Remap {
   // positions of bodies that are nodes. Bodies carried as points go with the curve.
   std::vector<int> free_coordinates(int rings) const {
     const Mesh& mesh = to_.mesh();
-    std::set<std::pair<int, int>> nodes;  // beam, node
-    for (const MeshSpan& span : mesh.spans)
-      if (!was_there(span)) nodes.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});
-    for (int ring = 0; ring < rings; ++ring)
-      for (const std::set<std::pair<int, int>> inner = nodes; const MeshSpan& span : mesh.spans)
-        if (inner.contains({span.beam, span.node_a}) || inner.contains({span.beam, span.node_b}))
-          nodes.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});
+    NodeSet nodes = nodes_of_new_elements(from_, to_);
+    for (int ring = 0; ring < rings; ++ring) nodes = with_neighbours(mesh, nodes);
     std::set<int> free;
     for (const auto& [beam, i] : nodes) {
       const MeshNode& node = mesh.nodes[beam][i];
@@ -280,7 +233,7 @@ class Remap {
       if (node.angle_left >= 0 && hold == Hold::nothing) free.insert({node.angle_left, node.angle_right});
     }
     for (const MeshSpan& span : mesh.spans)
-      if (span.bubble >= 0 && !was_there(span)) free.insert(span.bubble);
+      if (span.bubble >= 0 && is_new(from_, to_, span)) free.insert(span.bubble);
     if (free.empty()) return {};
     for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
       const SlidingJoint& joint = to_.model().joints[j];
@@ -289,15 +242,6 @@ class Remap {
       for (int k = 0; k < mesh.dimension; ++k) free.insert(mesh.bodies[joint.body] + k);
     }
     return {free.begin(), free.end()};
-  }
-
-  // Whether the old mesh has an element between the same nodes.
-  bool was_there(const MeshSpan& span) const {
-    const std::vector<MeshNode>& old = from_.mesh().nodes[span.beam];
-    const int a = same_node(old, to_.mesh().node_a(span)), b = same_node(old, to_.mesh().node_b(span));
-    const int count = static_cast<int>(old.size());
-    const bool ring = to_.model().beams[span.beam].is_ring();
-    return a >= 0 && b >= 0 && (b - a == 1 || (ring && b - a == 1 - count));
   }
 
   const BeamSystem& from_;
@@ -317,11 +261,20 @@ double closed_enough(const BeamSystem& from, const State& state) {
   return std::max(open_constraints(from, state), 1e-12 * state.q.lpNorm<Eigen::Infinity>());
 }
 
+State balanced(const BeamSystem& from, const State& state, const BeamSystem& to) {
+  State next = interpolated(from, state, to);
+  balance_added_nodes(from, to, next);
+  carry_bodies(to, next);
+  return next;
+}
+
 std::optional<Transferred> projected(const BeamSystem& from, const State& state, const SystemEnergy& energy,
                                      const BeamSystem& to) {
   const Remap remap(from, state, to);
-  std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
-  if (next) remap.keep_energy(energy, *next);
+  std::optional<Transferred> next = remap.with_velocities(balanced(from, state, to));
+  if (next && remap.keep_energy_by_velocities(*next)) return next;
+  next = remap.with_velocities(interpolated(from, state, to));
+  if (next) remap.keep_energy_by_moves(energy, *next);
   return next;
 }
 
@@ -330,16 +283,20 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
 }
 
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                          const std::vector<EnergyMove>& moves, NeighbourSolvers& solvers) {
+                                          const EnergyKeeping& keeping, NeighbourSolvers& solvers) {
   const Remap remap(from, state, to, &solvers);
-  std::optional<Transferred> next = remap.with_velocities(interpolated(from, state, to));
-  if (next && !remap.repeat(moves, *next)) return std::nullopt;
+  std::optional<Transferred> next = remap.with_velocities(
+      keeping.by_velocities ? balanced(from, state, to) : interpolated(from, state, to));
+  if (!next) return next;
+  const bool is_kept =
+      keeping.by_velocities ? remap.keep_energy_by_velocities(*next) : remap.repeat(keeping.moves, *next);
+  if (!is_kept) return std::nullopt;
   return next;
 }
 
 std::optional<TransferPath> path_of(const BeamSystem& from, const State& state, const BeamSystem& to,
-                                    const std::vector<EnergyMove>& moves) {
-  return Remap(from, state, to).path(moves);
+                                    const EnergyKeeping& keeping) {
+  return Remap(from, state, to).path(keeping);
 }
 
 }  // namespace nurbeam

@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/motion/new_elements.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "solver/side_by_side.h"
@@ -26,6 +27,24 @@ void Sensitivities::catch_up() {
                [&](int k) { parameters_[static_cast<std::size_t>(k)].catch_up(at); });
 }
 
+namespace {
+
+// Without elements at nodes of new ones, whose stiffness and inertia have a say in what becomes of these
+// nodes.
+std::vector<int> away_from_new_elements(std::vector<int> kept, const BeamSystem& before,
+                                        const BeamSystem& behind) {
+  const NodeSet changed = nodes_of_new_elements(before, behind);
+  for (int& element : kept) {
+    if (element < 0) continue;
+    const MeshSpan& span = behind.mesh().spans[static_cast<std::size_t>(element)];
+    if (changed.contains({span.beam, span.node_a}) || changed.contains({span.beam, span.node_b}))
+      element = -1;
+  }
+  return kept;
+}
+
+}  // namespace
+
 // Lets those lag in which nothing differs where the mesh changes, and returns which. `kept`: by the index of
 // an element the same one behind the change, -1 where there is none.
 std::vector<bool> Sensitivities::let_lag(const MeshedState& before, const BeamSystem& behind,
@@ -35,7 +54,8 @@ std::vector<bool> Sensitivities::let_lag(const MeshedState& before, const BeamSy
   };
   std::vector<bool> lagging(parameters_.size(), false);
   if (is_drawn(*before.system) && is_drawn(behind))
-    lagging = differences_->outlast(before.state, shifts_at(before.state), kept);
+    lagging = differences_->outlast(before.state, shifts_at(before.state),
+                                    away_from_new_elements(kept, *before.system, behind));
   for (std::size_t k = 0; k < parameters_.size(); ++k)
     if (lagging[k])
       parameters_[k].lags = true;

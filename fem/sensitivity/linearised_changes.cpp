@@ -80,7 +80,7 @@ void Sensitivities::transfers(const MeshedState& at, const FollowedTransfer& tra
   const std::optional<TransferPath> path =
       at.system->forces_depend_on_multipliers()
           ? std::nullopt
-          : path_of(*before.system, before.state, *at.system, transfer.moves);
+          : path_of(*before.system, before.state, *at.system, transfer.keeping);
   if (!path) return changes(at, change);
   carry();
   const std::vector<int> kept = kept_elements(*before.system, *at.system);

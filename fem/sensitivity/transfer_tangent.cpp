@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "fem/motion/carried_sections.h"
+#include "fem/motion/new_elements.h"
+#include "fem/motion/relative_motion.h"
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
@@ -57,14 +58,6 @@ std::vector<int> rows_that_change_with_shape(const BeamSystem& system) {
   return rows;
 }
 
-bool nodes_are_kept(const BeamSystem& from, const BeamSystem& to) {
-  const auto &old = from.mesh().nodes, &nodes = to.mesh().nodes;
-  for (std::size_t b = 0; b < nodes.size(); ++b)
-    for (const MeshNode& node : nodes[b])
-      if (same_node(old[b], node) < 0) return false;
-  return true;
-}
-
 }  // namespace
 
 TransferTangent::TransferTangent(std::shared_ptr<const BeamSystem> before,
@@ -93,6 +86,7 @@ bool TransferTangent::carry(MotionTangents& tangents) const {
     put_bodies(path_.stages[i].state, tangents);
     if (!find_velocities(path_.stages[i], tangents)) return false;
   }
+  if (path_.excess) keep_energy(path_.stages.back().state, *path_.excess, tangents);
   return true;
 }
 
@@ -114,15 +108,16 @@ TransferTangent::Matrix TransferTangent::rates(Eigen::Index rows, const Of& of) 
 
 // Where no node is new, what becomes of a motion beside the run's own is linear in it.
 void TransferTangent::interpolate(MotionTangents& tangents) const {
-  const bool is_linear = nodes_are_kept(*before_, *system_);
+  const bool is_linear = new_nodes(*before_, *system_).empty();
+  const auto carried = path_.excess ? balanced : interpolated;
   for_each_parameter([&](std::size_t k) {
     const Neighbours& of = neighbours_[k];
     State tangent;
     if (is_linear && is_own(k))
       tangent = interpolated(*before_, rate(of.more_before.state, of.less_before.state, of.step), *system_);
     else
-      tangent = rate(interpolated(*of.more_before.system, of.more_before.state, *of.more),
-                     interpolated(*of.less_before.system, of.less_before.state, *of.less), of.step);
+      tangent = rate(carried(*of.more_before.system, of.more_before.state, *of.more),
+                     carried(*of.less_before.system, of.less_before.state, *of.less), of.step);
     const auto column = static_cast<Eigen::Index>(k);
     tangents.q.col(column) = tangent.q;
     tangents.v.col(column) = tangent.v;
@@ -176,6 +171,37 @@ bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& 
   return true;
 }
 
+// (1, a column for each parameter) Of what a state behind has more energy than that before.
+TransferTangent::Matrix TransferTangent::energies(const State& at, const MotionTangents& tangents) const {
+  return rates(
+             1,
+             [&](std::size_t k, bool more) {
+               const Neighbours& of = neighbours_[k];
+               const MeshedState& before = more ? of.more_before : of.less_before;
+               const State beside = moved_along(at, tangents, k, more ? of.step : -of.step);
+               return Eigen::Matrix<double, 1, 1>(
+                   energy_change(*before.system, before.state, more ? *of.more : *of.less, beside));
+             }) +
+         kept_.energies(at);
+}
+
+// By velocities.
+void TransferTangent::keep_energy(const State& at, double excess, MotionTangents& tangents) const {
+  const Matrix energy = energies(at, tangents);
+  tangents.v += rates(at.v.size(), [&](std::size_t k, bool more) -> Vector {
+    const Neighbours& of = neighbours_[k];
+    const double part = more ? of.step : -of.step;
+    const RelativeMotion motion =
+        relative_motion(*(more ? of.more_before : of.less_before).system, more ? *of.more : *of.less,
+                        moved_along(at, tangents, k, part));
+    Vector change = Vector::Zero(at.v.size());
+    change(motion.coordinates) =
+        motion.growth(excess + part * energy(0, static_cast<Eigen::Index>(k))).value_or(0) *
+        motion.velocities;
+    return change;
+  });
+}
+
 bool TransferTangent::move(const Transferred& stage, const MadeMove& made, MotionTangents& tangents) const {
   const BeamSystem& system = *system_;
   const Eigen::Index n = stage.state.q.size(), m = stage.state.lambda.size(),
@@ -216,14 +242,7 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
   // Of the energy that is to be brought: nothing where the move does not.
   Matrix energy = Matrix::Zero(1, tangents.parameters());
   if (made.mu != 0) {
-    energy = rates(1, [&](std::size_t k, bool more) {
-      const Neighbours& of = neighbours_[k];
-      const MeshedState& before = more ? of.more_before : of.less_before;
-      return Eigen::Matrix<double, 1, 1>(energy_change(*before.system, before.state,
-                                                       more ? *of.more : *of.less,
-                                                       moved_along(stage.state, tangents, k, part(k, more))));
-    });
-    energy += kept_.energies(stage.state);
+    energy = energies(stage.state, tangents);
     energy += made.d.transpose() * (dg + dKd / 2);
   }
 

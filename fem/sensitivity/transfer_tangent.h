@@ -17,7 +17,7 @@ namespace nurbeam {
 /// of a residual at accelerations so large that forces are lost beside them, and of K d, which are those of
 /// (F(q + e d) - F(q - e d)) / 2e, e small: for all parameters at once, by tangents of the run itself and by
 /// differences of residuals of neighbours. Momentum p, energy e and what is interpolated change as those of
-/// neighbours do.
+/// neighbours do, and so do velocities that keep the energy.
 class TransferTangent {
  public:
   using Matrix = MotionTangents::Matrix;
@@ -63,6 +63,8 @@ class TransferTangent {
   void interpolate(MotionTangents& tangents) const;
   void put_bodies(const State& at, MotionTangents& tangents) const;
   bool find_velocities(const Transferred& stage, MotionTangents& tangents) const;
+  Matrix energies(const State& at, const MotionTangents& tangents) const;
+  void keep_energy(const State& at, double excess, MotionTangents& tangents) const;
   bool move(const Transferred& stage, const MadeMove& made, MotionTangents& tangents) const;
 
   std::shared_ptr<const BeamSystem> before_, system_;

@@ -94,6 +94,7 @@ TEST(GradientBeside, IsWhatNeighboursDoOverKnotsWithDampingAndTwoBodies) {
   expect_what_neighbours_do(of, 4, 1e-5);
 }
 
+// Of a narrow range the differences are lost in round-off.
 TEST(GradientBeside, IsWhatNeighboursDoInSpace) {
   const StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
     "beams": [{"name": "beam",
@@ -107,7 +108,7 @@ TEST(GradientBeside, IsWhatNeighboursDoInSpace) {
                  {"beam": "beam", "at": "end", "type": "pinned"}],
     "analysis": {"type": "dynamic", "end_time": 0.4, "step": "1 ms"}, "output": {"every": 0.1}})json",
                        R"json("variables": [
-      {"name": "y2", "control_point": {"beam": "beam", "index": 2, "axis": "y"}, "range": [0, 0.4]},
+      {"name": "y2", "control_point": {"beam": "beam", "index": 2, "axis": "y"}, "range": [-2, 2.4]},
       {"name": "w1", "weight": {"beam": "beam", "index": 1}, "range": [0.6, 1.2]},
       {"name": "place", "path": "sliding_joints[0].at.length", "range": [0.8, 1], "nominal": 0.9}],)json" +
                            slide_quantities);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -150,7 +151,7 @@ TEST(Trolley, KeepsTheEnergyThroughSplitsAndMerges) {
       drifts.push_back(report.energy_drift / report.peak_kinetic_energy);
     }
     EXPECT_LT(drifts[1], 2e-3);
-    EXPECT_LT(drifts[1], 0.6 * drifts[0]) << drifts[0];
+    EXPECT_LT(drifts[1], std::max(0.6 * drifts[0], 1e-6)) << drifts[0];
   }
 }
 
@@ -162,7 +163,7 @@ TEST(Trolley, KeepsTheMomentumOfAFreeRail) {
     int points = 0;
     observer.checkpoint_due = [&] { return points == 0; };
     observer.checkpoint = [&](const Checkpoint& now) { (points++ == 0 ? first : last) = now; };
-    const SimulationReport report = ride(model, 0.6, 1e-3, observer);
+    const SimulationReport report = ride(model, 0.6, kinked ? 5e-4 : 1e-3, observer);
     EXPECT_EQ(report.status, SimulationStatus::done);
     EXPECT_GE(events_of(report, EventKind::merge), 1);
     const Vector3d start = momentum(BeamSystem(model, first.plan), first.state),

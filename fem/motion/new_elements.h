@@ -1,0 +1,27 @@
+#pragma once
+#include <set>
+#include <utility>
+
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// Beams and indices of nodes.
+using NodeSet = std::set<std::pair<int, int>>;
+
+/// Nodes of `to` that `from` has not.
+NodeSet new_nodes(const BeamSystem& from, const BeamSystem& to);
+
+/// Whether `from` has no element between the same nodes as this span of `to`.
+bool is_new(const BeamSystem& from, const BeamSystem& to, const MeshSpan& span);
+
+/// Nodes of the new elements of `to`.
+NodeSet nodes_of_new_elements(const BeamSystem& from, const BeamSystem& to);
+
+/// Those of beams whose strain is not pointwise.
+NodeSet without_pointwise_strain(const BeamModel& model, NodeSet nodes);
+
+/// These and their neighbours.
+NodeSet with_neighbours(const Mesh& mesh, const NodeSet& nodes);
+
+}  // namespace nurbeam

@@ -1,0 +1,56 @@
+#include "fem/motion/tangent_blocks.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "fem/system/with_assembly.h"
+
+namespace nurbeam {
+
+TangentBlocks::TangentBlocks(const BeamSystem& system, const State& state, const TangentWeights& weights,
+                             const std::vector<int>& coordinates) {
+  const SparsePattern& pattern = system.tangent_pattern();
+  const int n = system.coordinate_count(), m = system.constraint_count();
+  const int *starts = pattern.column_starts().data(), *rows = pattern.rows().data();
+  std::vector<bool> wanted(static_cast<std::size_t>(n + m), false);
+  std::fill(wanted.begin() + n, wanted.end(), true);
+  std::vector<int> place(static_cast<std::size_t>(n + m), -1);
+  std::iota(place.begin() + n, place.end(), 0);
+  // Nobody looks at the other columns.
+  const auto values = std::make_unique_for_overwrite<double[]>(pattern.rows().size());
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    wanted[coordinates[k]] = true;
+    place[coordinates[k]] = static_cast<int>(k);
+    std::fill(values.get() + starts[coordinates[k]], values.get() + starts[coordinates[k] + 1], 0.0);
+  }
+  system.tangent_near(state, weights, wanted, values.get());
+  const auto size = static_cast<Eigen::Index>(coordinates.size());
+  square_.setZero(size, size);
+  gradient_.setZero(m, size);
+  for (Eigen::Index k = 0; k < size; ++k)
+    for (int i = starts[coordinates[k]]; i < starts[coordinates[k] + 1]; ++i)
+      if (place[rows[i]] >= 0) (rows[i] < n ? square_ : gradient_)(place[rows[i]], k) = values[i];
+}
+
+Eigen::VectorXd residual_of(const BeamSystem& system, const State& state,
+                            const std::vector<int>& coordinates) {
+  Eigen::VectorXd dynamics = Eigen::VectorXd::Zero(system.coordinate_count()),
+                  none(system.constraint_count());
+  std::vector<bool> wanted(static_cast<std::size_t>(system.coordinate_count()), false);
+  for (const int coordinate : coordinates) wanted[coordinate] = true;
+  const auto is_wanted = [&](int dof) { return dof >= 0 && wanted[dof]; };
+  with_assembly(system, [&]<int D>(const Assembly<D>& assembly) {
+    std::vector<int> beside;
+    for (int i = 0; i < static_cast<int>(assembly.elements().size()); ++i) {
+      const MeshElement<D>& e = assembly.elements()[i];
+      bool acts = std::any_of(e.dofs.begin(), e.dofs.end(), is_wanted);
+      if (e.twist) acts = acts || std::any_of(e.twist->dofs.begin(), e.twist->dofs.end(), is_wanted);
+      if (acts) beside.push_back(i);
+    }
+    assembly.add_residual_of(beside, state, dynamics, none);
+  });
+  return dynamics(coordinates);
+}
+
+}  // namespace nurbeam
