@@ -86,7 +86,7 @@ struct Around {
     constexpr double far = 1e-3;  // of that length, in that time
     const double rate = state.v.lpNorm<Eigen::Infinity>() / shortest +
                         std::sqrt(state.a.lpNorm<Eigen::Infinity>() / shortest);
-    if (rate > 0) length = far / rate;
+    if (rate > 0) length = std::min(far / rate, 1.0);
     go_on(before, -length / 2);
     go_on(after, length / 2);
   }

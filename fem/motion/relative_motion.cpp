@@ -131,9 +131,12 @@ RelativeMotion relative_motion(const BeamSystem& from, const BeamSystem& to, con
   const Eigen::VectorXd momentum = along.transpose() * (M(own, Eigen::all) * state.v(around)),
                         motion = mass.solve(momentum);
   RelativeMotion relative{coordinates, along * motion, motion.dot(momentum) / 2};
-  for (Eigen::Index i = 0; i < relative.velocities.size(); ++i)
-    if (const double rate = std::abs(state.v[coordinates[i]]); near.is_place(coordinates[i]) && rate > 0)
-      relative.of_bodies = std::max(relative.of_bodies, std::abs(relative.velocities[i]) / rate);
+  const double none = 1e-12 * relative.velocities.lpNorm<Eigen::Infinity>();
+  for (Eigen::Index i = 0; i < relative.velocities.size(); ++i) {
+    const double part = std::abs(relative.velocities[i]), rate = std::abs(state.v[coordinates[i]]);
+    if (near.is_place(coordinates[i]) && part > none)
+      relative.of_bodies = std::max(relative.of_bodies, part / rate);
+  }
   return relative;
 }
 
