@@ -273,7 +273,8 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
   const Remap remap(from, state, to);
   std::optional<Transferred> next = remap.with_velocities(balanced(from, state, to));
   if (next && remap.keep_energy_by_velocities(*next)) return next;
-  next = remap.with_velocities(interpolated(from, state, to));
+  const bool is_balanced = !without_pointwise_strain(to.model(), new_nodes(from, to)).empty();
+  if (is_balanced) next = remap.with_velocities(interpolated(from, state, to));
   if (next) remap.keep_energy_by_moves(energy, *next);
   return next;
 }
