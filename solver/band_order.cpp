@@ -159,17 +159,20 @@ void BandOrder::place_unknowns(const SparseView& pattern) {
   ends.resize(unknown.size());
   std::iota(ends.begin(), ends.end(), 1);
   below.assign(unknown.size(), 0);
-  for (int column = 0; column < held; ++column) {
-    const int first = pattern.outerIndexPtr()[unknown[column]],
-              end = pattern.outerIndexPtr()[unknown[column] + 1];
-    for (int k = first; k < end; ++k) {
+  // Columns that follow one another with the same rows, as those of a node, are gone over once.
+  for (int first = 0, end = 0; first < held; first = end) {
+    for (end = first + 1; end < held && have_same_rows(pattern, unknown[first], unknown[end]);) ++end;
+    int highest = first, lowest = first > 0 ? below[first - 1] : 0;
+    for (int k = pattern.outerIndexPtr()[unknown[first]]; k < pattern.outerIndexPtr()[unknown[first] + 1]; ++k) {
       const int row = place[pattern.innerIndexPtr()[k]];
       if (row < 0) continue;
-      ends[row] = std::max(ends[row], column + 1);
-      below[column] = std::max(below[column], row);
-      half_bandwidth = std::max(half_bandwidth, std::abs(row - column));
+      ends[row] = std::max(ends[row], end);
+      highest = std::min(highest, row);
+      lowest = std::max(lowest, row);
+      half_bandwidth = std::max(half_bandwidth, row - first);
     }
-    if (column > 0) below[column] = std::max(below[column], below[column - 1]);
+    half_bandwidth = std::max(half_bandwidth, end - 1 - highest);
+    std::fill(below.begin() + first, below.begin() + end, lowest);
   }
 }
 

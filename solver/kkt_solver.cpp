@@ -67,29 +67,25 @@ class PatternInRuns {
  private:
   struct Run {
     int first, count;
-    bool operator==(const Run&) const = default;
   };
   struct Columns {
     int count, runs, entries;
   };
 
   void add(const SparseView& matrix, int column) {
+    if (column > 0 && have_same_rows(matrix, column - 1, column)) {
+      ++columns_.back().count;
+      return;
+    }
     const int begin = matrix.outerIndexPtr()[column], end = matrix.outerIndexPtr()[column + 1];
     const int* rows = matrix.innerIndexPtr();
-    const auto before = static_cast<std::ptrdiff_t>(runs_.size());
+    const int before = static_cast<int>(runs_.size());
     for (int k = begin; k < end;) {
       const int first = k++;
       while (k < end && rows[k] == rows[k - 1] + 1) ++k;
       runs_.push_back({rows[first], k - first});
     }
-    const auto own = runs_.begin() + before;
-    const int count = static_cast<int>(runs_.end() - own);
-    if (!columns_.empty() && columns_.back().runs == count && std::equal(own, runs_.end(), own - count)) {
-      runs_.erase(own, runs_.end());
-      ++columns_.back().count;
-    } else {
-      columns_.push_back({1, count, end - begin});
-    }
+    columns_.push_back({1, static_cast<int>(runs_.size()) - before, end - begin});
   }
 
   Eigen::Index size_;

@@ -10,6 +10,13 @@ namespace nurbeam {
 using SparseView = Eigen::Ref<const Eigen::SparseMatrix<double>>;
 using SparseValues = Eigen::Ref<Eigen::SparseMatrix<double>>;
 
+/// Whether two columns have entries in the same rows.
+inline bool have_same_rows(const SparseView& matrix, int one, int other) {
+  const int *starts = matrix.outerIndexPtr(), *rows = matrix.innerIndexPtr();
+  return std::equal(rows + starts[one], rows + starts[one + 1], rows + starts[other],
+                    rows + starts[other + 1]);
+}
+
 /// Where a square sparse matrix has entries: column by column, the rows of each in order.
 class SparsePattern {
  public:

@@ -30,16 +30,22 @@ StrandOrder::StrandOrder(const SparseView& matrix, BandOrder of, const std::vect
     for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k)
       visit(matrix.innerIndexPtr()[k], k);
   };
+  bool apart = false;  // the column before, from the part
   for (int column = 0; column < matrix.cols(); ++column) {
     const int place = band->place[column], part = in_part[column];
+    if (part < 0 && apart && have_same_rows(matrix, column - 1, column)) continue;
+    apart = false;
     if (part >= 0)
       for_each_row(column, [&](int row, int value) {
         if (band->place[row] >= 0) into.push_back({value, band->place[row], part});
       });
-    else if (place >= 0)
+    else if (place >= 0) {
+      const std::size_t before = out_of.size();
       for_each_row(column, [&](int row, int value) {
         if (in_part[row] >= 0) out_of.push_back({value, place, in_part[row]});
       });
+      apart = out_of.size() == before;
+    }
   }
   const auto by_part = [](const Entry& a, const Entry& b) {
     return a.part != b.part ? a.part < b.part : a.place < b.place;

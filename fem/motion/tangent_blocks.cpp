@@ -39,17 +39,10 @@ Eigen::VectorXd residual_of(const BeamSystem& system, const State& state,
                   none(system.constraint_count());
   std::vector<bool> wanted(static_cast<std::size_t>(system.coordinate_count()), false);
   for (const int coordinate : coordinates) wanted[coordinate] = true;
-  const auto is_wanted = [&](int dof) { return dof >= 0 && wanted[dof]; };
-  with_assembly(system, [&]<int D>(const Assembly<D>& assembly) {
-    std::vector<int> beside;
-    for (int i = 0; i < static_cast<int>(assembly.elements().size()); ++i) {
-      const MeshElement<D>& e = assembly.elements()[i];
-      bool acts = std::any_of(e.dofs.begin(), e.dofs.end(), is_wanted);
-      if (e.twist) acts = acts || std::any_of(e.twist->dofs.begin(), e.twist->dofs.end(), is_wanted);
-      if (acts) beside.push_back(i);
-    }
-    assembly.add_residual_of(beside, state, dynamics, none);
-  });
+  with_assembly(
+      system, [&](const auto& assembly) {
+        assembly.add_residual_of(assembly.elements_at(wanted), state, dynamics, none);
+      });
   return dynamics(coordinates);
 }
 

@@ -55,19 +55,25 @@ void Assembly<D>::batch_elements() {
   walks_.resize(model_->beams.size());
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     const MeshElement<D>& e = elements_[i];
-    auto& [batches, batched, others] = walks_[e.span->beam];
+    auto& [batches, batched, others, reaches] = walks_[e.span->beam];
     (e.twist || !ElementBatch<D>::takes(e.element) ? others : batched).push_back(i);
   }
   constexpr int lanes = ElementBatch<D>::lanes;
   for (int b = 0; b < static_cast<int>(walks_.size()); ++b) {
-    auto& [batches, batched, others] = walks_[b];
+    auto& [batches, batched, others, reaches] = walks_[b];
     const int count = static_cast<int>(batched.size());
     batches.reserve(static_cast<std::size_t>((count + lanes - 1) / lanes));
+    reaches.reserve(batches.capacity());
     for (int first = 0; first < count; first += lanes) {
       batches.emplace_back(model_->beams[b].properties);
+      auto& [lowest, highest] = reaches.emplace_back(std::array{mesh_.coordinate_count, -1});
       for (int i = first; i < std::min(first + lanes, count); ++i) {
         const MeshElement<D>& e = elements_[batched[i]];
         batches.back().add(e.element, e.dofs, e.slope_offset, e.index);
+        for (int k = 0; k < ElementLayout<D>::nodal; ++k) {
+          lowest = std::min(lowest, e.dofs[k]);
+          highest = std::max(highest, e.dofs[k]);
+        }
       }
     }
   }
@@ -131,7 +137,7 @@ ElementEnergy Assembly<D>::axis_energy(const State& state, const std::vector<boo
   ElementEnergy sum;
   const auto counts = [&](int i) { return !of || (*of)[static_cast<std::size_t>(i)]; };
   for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
-    const auto& [batches, batched, others] = walks_[b];
+    const auto& [batches, batched, others, reaches] = walks_[b];
     const Vector weight = model_->beams[b].properties.mass_per_length * model_->gravity.head<D>();
     for (auto begin = batched.begin(); const ElementBatch<D>& batch : batches) {
       const auto end = begin + batch.count();
@@ -254,7 +260,7 @@ int Assembly<D>::part_count(int beam) const {
 template <int D>
 void Assembly<D>::add_part(int beam, int part, const State& state, const Vector& load,
                            Eigen::Ref<Eigen::VectorXd> dynamics) const {
-  const auto& [batches, batched, others] = walks_[beam];
+  const auto& [batches, batched, others, reaches] = walks_[beam];
   const int batch_count = static_cast<int>(batches.size());
   if (part < batch_count)
     return batches[part].add_forces(state, load, free_strain_of(beam, state), dynamics.data());

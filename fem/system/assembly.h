@@ -95,6 +95,8 @@ class Assembly final : public SecondOrderSystem {
   /// all that the constraints need.
   void add_residual_of(const std::vector<int>& elements, const State& state,
                        Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints) const;
+  /// The elements with one of these coordinates, of which `wanted` has one for each unknown.
+  std::vector<int> elements_at(const std::vector<bool>& wanted) const;
   /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
   std::vector<PointAction> actions(const State& state) const;
   /// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them,
@@ -183,6 +185,7 @@ class Assembly final : public SecondOrderSystem {
   struct Walk {
     std::vector<ElementBatch<D>> batches;
     std::vector<int> batched, others;
+    std::vector<std::array<int, 2>> reaches;  // the lowest and the highest coordinate of each batch
   };
   template <class Wanted>
   struct Sink;

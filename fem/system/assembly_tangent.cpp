@@ -23,6 +23,7 @@ void Assembly<D>::scatter(Runs runs, const Matrix& matrix, double* values) {
 template <int D>
 struct Assembly<D>::All {
   bool operator()(int) const { return true; }
+  bool operator()(const std::array<int, 2>&) const { return true; }
   bool operator()(const Block&) const { return true; }
   bool operator()(const ConstraintBlock&) const { return true; }
 };
@@ -30,11 +31,19 @@ template <int D>
 struct Assembly<D>::Near {
   const Assembly& of;
   const std::vector<bool>& near;
+  std::vector<int> before;  // how many coordinates are near before each
+
+  Near(const Assembly& of, const std::vector<bool>& near)
+      : of(of), near(near), before(static_cast<std::size_t>(of.mesh_.coordinate_count) + 1, 0) {
+    for (int dof = 0; dof < of.mesh_.coordinate_count; ++dof) before[dof + 1] = before[dof] + near[dof];
+  }
 
   bool any(std::span<const int> dofs) const {
     return std::any_of(
         dofs.begin(), dofs.end(), [&](int dof) { return dof >= 0 && near[dof]; });
   }
+  /// Whether there may be any from one coordinate to another.
+  bool operator()(const std::array<int, 2>& reach) const { return before[reach[1] + 1] > before[reach[0]]; }
   bool operator()(const Block& block) const { return any(block.dofs); }
   bool operator()(int element) const {
     return any(of.elements_[element].dofs) || any(of.twist_dofs(element));
@@ -93,7 +102,8 @@ void Assembly<D>::add_batch_tangents(int beam, const State& state, const Tangent
   for_each_batch(walks_[beam], [&](int i) {
     const int* begin = batched.data() + i * ElementBatch<D>::lanes;
     const int count = batches[i].count();
-    if (std::none_of(begin, begin + count, wanted)) return;
+    const auto is_wanted = [&](int element) { return wanted(element); };
+    if (!wanted(walks_[beam].reaches[i]) || std::none_of(begin, begin + count, is_wanted)) return;
     typename ElementBatch<D>::Tangents K;
     batches[i].tangents(state, strain, w, K);
     for (int lane = 0; lane < count; ++lane) {
@@ -197,7 +207,23 @@ void Assembly<D>::tangents(const State& state, const std::array<TangentWeights, 
 template <int D>
 void Assembly<D>::tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                                double* values) const {
-  add_tangents(state, w, Near{*this, near}, values);
+  add_tangents(state, w, Near(*this, near), values);
+}
+
+template <int D>
+std::vector<int> Assembly<D>::elements_at(const std::vector<bool>& wanted) const {
+  const Near near(*this, wanted);
+  std::vector<int> elements;
+  const auto take = [&](int element) {
+    if (near(element)) elements.push_back(element);
+  };
+  for (const Walk& walk : walks_) {
+    const int* begin = walk.batched.data();
+    for (std::size_t i = 0; i < walk.batches.size(); begin += walk.batches[i++].count())
+      if (near(walk.reaches[i])) std::for_each(begin, begin + walk.batches[i].count(), take);
+    std::for_each(walk.others.begin(), walk.others.end(), take);
+  }
+  return elements;
 }
 
 template <int D>
@@ -238,6 +264,8 @@ template void Assembly<2>::tangent_near(const State&, const TangentWeights&, con
                                         double*) const;
 template void Assembly<3>::tangent_near(const State&, const TangentWeights&, const std::vector<bool>&,
                                         double*) const;
+template std::vector<int> Assembly<2>::elements_at(const std::vector<bool>&) const;
+template std::vector<int> Assembly<3>::elements_at(const std::vector<bool>&) const;
 template void Assembly<2>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
 template void Assembly<3>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
 

@@ -19,61 +19,42 @@ bool any_dof(Dofs dofs, const Is& is) {
       dofs.begin(), dofs.end(), [&](int dof) { return dof >= 0 && is(dof); });
 }
 
-// Calls is(now, old) for each of both.
+// Whether is(now, old) of each of both, and no one is one of them alone.
 template <class Is>
 bool all_dofs(Dofs now, Dofs old, const Is& is) {
-  return std::equal(
-      now.begin(), now.end(), old.begin(), old.end(),
-      [&](int a, int b) { return a < 0 ? b < 0 : b >= 0 && is(a, b); });
+  if (now.size() != old.size()) return false;
+  bool all = true;
+  // Without branches, which many would be.
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const int a = now[k], b = old[k];
+    all = all & (((a < 0) & (b < 0)) | ((a >= 0) & (b >= 0) & is(a, b)));
+  }
+  return all;
 }
 
-void widen(Dofs dofs, int& begin, int& end) {
-  for (const int dof : dofs) {
-    if (dof < 0) continue;
-    begin = std::min(begin, dof);
-    end = std::max(end, dof + 1);
-  }
-}
-
-// The rows of the columns from `begin` to `end`, one after the other, from all groups that hold one of them.
-template <class IsRenewed>
-SparsePattern renewed_columns(const CoupledGroups& now, int begin, int end, const IsRenewed& is_renewed) {
-  std::vector<Dofs> groups;
-  for (const Dofs group : now.elements)
-    if (any_dof(group, is_renewed)) groups.push_back(group);
-  for (const std::vector<int>& group : now.others)
-    if (any_dof(group, is_renewed)) groups.emplace_back(group);
-  std::vector<int> unknowns;
-  for (const Dofs group : groups)
-    std::copy_if(group.begin(), group.end(), std::back_inserter(unknowns), [](int dof) { return dof >= 0; });
-  for (int column = begin; column < end; ++column) unknowns.push_back(column);
-  std::sort(unknowns.begin(), unknowns.end());
-  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
-  const auto place = [&](int unknown) {
-    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
-  };
-  Coupling coupling(static_cast<int>(unknowns.size()));
-  for (const Dofs group : groups) {
-    for (const int dof : group)
-      if (dof >= 0) coupling.add(place(dof), 1);
-    coupling.close();
-  }
-  const SparsePattern own = coupling.pattern();
-  std::vector<int> starts{0}, rows;
-  for (int column = begin; column < end; ++column) {
-    const int at = place(column);
-    for (int k = own.column_starts()[at]; k < own.column_starts()[at + 1]; ++k)
-      rows.push_back(unknowns[own.rows()[k]]);
-    starts.push_back(static_cast<int>(rows.size()));
-  }
-  return {std::move(starts), std::move(rows)};
+// Each where it was, or behind by so many.
+bool are_shifted(Dofs now, Dofs old, int by) {
+  return all_dofs(now, old, [by](int a, int b) { return (a == b) | (a == b + by); });
 }
 
 }  // namespace
 
+PatternShift::Extent PatternShift::extent(Dofs dofs) {
+  constexpr unsigned none = -1;
+  unsigned lowest = none;
+  int highest = -1;
+  for (const int dof : dofs) {
+    lowest = std::min(lowest, static_cast<unsigned>(dof));  // -1 is the largest
+    highest = std::max(highest, dof);
+  }
+  return {static_cast<int>(std::min(lowest, none / 2)), highest};
+}
+
 std::optional<PatternShift> PatternShift::between(const CoupledGroups& old, const CoupledGroups& now) {
   PatternShift shift;
   shift.by_ = now.unknowns - old.unknowns;
+  shift.extents_.reserve(now.elements.size());
+  for (const Dofs element : now.elements) shift.extents_.push_back(extent(element));
   if (!shift.find_changed(old, now)) return {};
   shift.find_renewed(now);
   if (!shift.holds_elements(old, now) || !shift.holds_others(old, now)) return {};
@@ -84,18 +65,19 @@ std::optional<PatternShift> PatternShift::between(const CoupledGroups& old, cons
 bool PatternShift::find_changed(const CoupledGroups& old, const CoupledGroups& now) {
   const int count = static_cast<int>(now.elements.size()), old_count = static_cast<int>(old.elements.size());
   const int most = std::min(count, old_count);
-  const auto is_same = [&](int i, int old_i, int by) {
-    return all_dofs(now.elements[i], old.elements[old_i],
-                    [&](int a, int b) { return a == b || a == b + by; });
-  };
-  while (same_left_ < most && is_same(same_left_, same_left_, 0)) ++same_left_;
+  while (same_left_ < most && std::ranges::equal(now.elements[same_left_], old.elements[same_left_]))
+    ++same_left_;
   while (same_right_ < most - same_left_ &&
-         is_same(count - 1 - same_right_, old_count - 1 - same_right_, by_))
+         are_shifted(now.elements[count - 1 - same_right_], old.elements[old_count - 1 - same_right_], by_))
     ++same_right_;
   changed_begin_ = std::numeric_limits<int>::max();
   int old_end = 0;
-  for (int i = same_left_; i < count - same_right_; ++i) widen(now.elements[i], changed_begin_, changed_end_);
-  for (int i = same_left_; i < old_count - same_right_; ++i) widen(old.elements[i], changed_begin_, old_end);
+  const auto widen = [&](const Extent& of, int& end) {
+    changed_begin_ = std::min(changed_begin_, of.lowest);
+    end = std::max(end, of.highest + 1);
+  };
+  for (int i = same_left_; i < count - same_right_; ++i) widen(extents_[i], changed_end_);
+  for (int i = same_left_; i < old_count - same_right_; ++i) widen(extent(old.elements[i]), old_end);
   changed_end_ = std::max(changed_end_, old_end + by_);
   return changed_begin_ < changed_end_ && changed_begin_ < changed_end_ - by_;
 }
@@ -103,28 +85,28 @@ bool PatternShift::find_changed(const CoupledGroups& old, const CoupledGroups& n
 void PatternShift::find_renewed(const CoupledGroups& now) {
   begin_ = changed_begin_;
   end_ = changed_end_;
-  for (const Dofs element : now.elements)
-    if (any_dof(element, [&](int dof) { return is_changed(dof); })) widen(element, begin_, end_);
-  const auto is_before = [&](int dof) { return dof < begin_; };
-  const auto is_behind = [&](int dof) { return dof >= end_; };
-  const auto none_but = [&](Dofs element, const auto& is) {
-    return !any_dof(element, [&](int dof) { return !is(dof); });
-  };
-  const int count = static_cast<int>(now.elements.size());
-  while (left_ < same_left_ && none_but(now.elements[left_], is_before)) ++left_;
-  while (right_ < same_right_ && none_but(now.elements[count - 1 - right_], is_behind)) ++right_;
+  const int count = static_cast<int>(extents_.size());
+  for (int i = 0; i < count; ++i) {
+    const auto [lowest, highest] = extents_[i];
+    if (highest < changed_begin_ || lowest >= changed_end_ ||
+        !any_dof(now.elements[i], [&](int dof) { return is_changed(dof); }))
+      continue;
+    begin_ = std::min(begin_, lowest);
+    end_ = std::max(end_, highest + 1);
+  }
+  while (left_ < same_left_ && extents_[left_].highest < begin_) ++left_;
+  while (right_ < same_right_ && extents_[count - 1 - right_].lowest >= end_) ++right_;
 }
 
+// Those on the left have the numbers that they had.
 bool PatternShift::holds_elements(const CoupledGroups& old, const CoupledGroups& now) const {
-  const auto holds = [&](int i, int old_i) {
-    return all_dofs(now.elements[i], old.elements[old_i],
-                    [&](int a, int b) { return is_changed(a) || is_kept(a, b); });
-  };
   const int count = static_cast<int>(now.elements.size()), old_count = static_cast<int>(old.elements.size());
   for (int i = 0; i < same_left_; ++i)
-    if (!holds(i, i)) return false;
+    if (by_ != 0 && extents_[i].highest >= changed_end_) return false;
   for (int i = 1; i <= same_right_; ++i)
-    if (!holds(count - i, old_count - i)) return false;
+    if (!all_dofs(now.elements[count - i], old.elements[old_count - i],
+                  [&](int a, int b) { return is_changed(a) || is_kept(a, b); }))
+      return false;
   return true;
 }
 
@@ -142,8 +124,43 @@ bool PatternShift::holds_others(const CoupledGroups& old, const CoupledGroups& n
       });
 }
 
+// The rows of the columns from begin_ to end_, one after the other, from all groups that hold one of them.
+SparsePattern PatternShift::renewed_columns(const CoupledGroups& now) const {
+  const auto is_renewed = [&](int dof) { return this->is_renewed(dof); };
+  std::vector<Dofs> groups;
+  for (std::size_t i = 0; i < now.elements.size(); ++i)
+    if (extents_[i].highest >= begin_ && extents_[i].lowest < end_ && any_dof(now.elements[i], is_renewed))
+      groups.push_back(now.elements[i]);
+  for (const std::vector<int>& group : now.others)
+    if (any_dof(group, is_renewed)) groups.emplace_back(group);
+  std::vector<int> unknowns;
+  for (const Dofs group : groups)
+    std::copy_if(group.begin(), group.end(), std::back_inserter(unknowns), [](int dof) { return dof >= 0; });
+  for (int column = begin_; column < end_; ++column) unknowns.push_back(column);
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  const auto place = [&](int unknown) {
+    return static_cast<int>(std::lower_bound(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
+  };
+  Coupling coupling(static_cast<int>(unknowns.size()));
+  for (const Dofs group : groups) {
+    for (const int dof : group)
+      if (dof >= 0) coupling.add(place(dof), 1);
+    coupling.close();
+  }
+  const SparsePattern own = coupling.pattern();
+  std::vector<int> starts{0}, rows;
+  for (int column = begin_; column < end_; ++column) {
+    const int at = place(column);
+    for (int k = own.column_starts()[at]; k < own.column_starts()[at + 1]; ++k)
+      rows.push_back(unknowns[own.rows()[k]]);
+    starts.push_back(static_cast<int>(rows.size()));
+  }
+  return {std::move(starts), std::move(rows)};
+}
+
 SparsePattern PatternShift::pattern(const SparsePattern& old, const CoupledGroups& now) const {
-  const SparsePattern renewed = renewed_columns(now, begin_, end_, [&](int dof) { return is_renewed(dof); });
+  const SparsePattern renewed = renewed_columns(now);
   const std::vector<int>&old_starts = old.column_starts(), &old_rows = old.rows();
   const int old_end = end_ - by_, first = old_starts[begin_], last = old_starts[old_end];
   const int renewed_count = static_cast<int>(renewed.rows().size());

@@ -35,6 +35,12 @@ class PatternShift {
 
  private:
   PatternShift() = default;
+  // Of the unknowns of an element.
+  struct Extent {
+    int lowest, highest;
+  };
+  static Extent extent(std::span<const int> dofs);
+
   bool find_changed(const CoupledGroups& old, const CoupledGroups& now);
   void find_renewed(const CoupledGroups& now);
   bool holds_elements(const CoupledGroups& old, const CoupledGroups& now) const;
@@ -44,12 +50,14 @@ class PatternShift {
   }
   bool is_changed(int now) const { return now >= changed_begin_ && now < changed_end_; }
   bool is_renewed(int now) const { return now >= begin_ && now < end_; }
+  SparsePattern renewed_columns(const CoupledGroups& now) const;
 
   int by_ = 0;                               // what comes behind has other numbers
   int same_left_ = 0, same_right_ = 0;       // elements that may be the same
   int changed_begin_ = 0, changed_end_ = 0;  // unknowns of the others, in numbers of now
   int begin_ = 0, end_ = 0;                  // the columns of these and of what is coupled with them
   int left_ = 0, right_ = 0;
+  std::vector<Extent> extents_;  // of the elements of now
 };
 
 }  // namespace nurbeam
