@@ -225,19 +225,19 @@ Balance balance_accelerations(const SecondOrderSystem& system, double h, const s
   if (system.forces_depend_on_multipliers()) return {make_accelerations_smooth(system, h, state)};
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   const State still = unloaded(system, state);
-  Eigen::VectorXd force(n), open(m);
-  system.residual(state, force, open);
-  force = -force;
-  open = -system.constraint_curvature(state) - system.constraint_product(state, state.a);
+  Eigen::VectorXd dynamics(n), constraints(m);
+  const Eigen::VectorXd open = -system.constraint_curvature(state) - system.constraint_product(state, state.a);
   if (!around.empty())
     for (const int reach : {short_reach_of_accelerations, reach_of_accelerations(system)}) {
       NearKkt near(system, around, reach);
-      if (near.factorise(still, h) && near.answer(force, open, state.a, state.lambda))
+      system.residual_near(state, near.rows(), dynamics, constraints);
+      if (near.factorise(still, h) && near.answer(-dynamics, open, state.a, state.lambda))
         return {ConsistencyStatus::done, true};
     }
+  system.residual(state, dynamics, constraints);
   const ScaledKkt kkt(system, still, h);
   Eigen::VectorXd right(n + m), correction;
-  right << force / kkt.scale, open;
+  right << -dynamics / kkt.scale, open;
   if (!solver.solve(kkt.matrix, system.moving_unknowns(), right, correction) || !correction.allFinite())
     return {ConsistencyStatus::singular};
   state.a += correction.head(n);

@@ -47,6 +47,12 @@ std::vector<int> NearKkt::unknowns() const {
   return inner;
 }
 
+std::vector<bool> NearKkt::rows() const {
+  std::vector<bool> known(static_cast<std::size_t>(pattern_.size()), false);
+  for (int k = 0; k < start(rows_); ++k) known[fronts_.unknowns()[k]] = true;
+  return known;
+}
+
 bool NearKkt::factorise(const State& state, double h) {
   const int renewed = renewed_levels(state);
   if (renewed == 0) return true;

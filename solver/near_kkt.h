@@ -16,6 +16,8 @@ class NearKkt {
 
   /// These, in order.
   std::vector<int> unknowns() const;
+  /// Of all unknowns those whose rows are known: the same and the next level.
+  std::vector<bool> rows() const;
   int reach() const { return reach_; }
 
   /// Takes the matrix of a state, from which the next one with the same h may differ in q alone; whether it

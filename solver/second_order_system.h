@@ -51,6 +51,15 @@ class SecondOrderSystem {
     for (const std::size_t k : {0, 1}) tangent(state, w[k], *kkt[k]);
   }
 
+  /// The residual in the rows of coordinates that are `near` (n+m), of which the others mean nothing, and
+  /// all of the constraints.
+  virtual void residual_near(const State& state, const std::vector<bool>& near,
+                             Eigen::Ref<Eigen::VectorXd> dynamics,
+                             Eigen::Ref<Eigen::VectorXd> constraints) const {
+    (void)near;
+    residual(state, dynamics, constraints);
+  }
+
   /// That where an unknown is `near` (n+m), added to `values`, of the entries of tangent_pattern(): in
   /// the columns of these unknowns and in those of all that is coupled with them, and right in their rows
   /// alone.

@@ -22,9 +22,8 @@ class NodePatch {
  public:
   NodePatch(const BeamSystem& system, const State& state, const NodeSet& added) : system_(system) {
     const Mesh& mesh = system.mesh();
-    for (const MeshSpan& span : mesh.spans)
-      if (added.contains({span.beam, span.node_a}) || added.contains({span.beam, span.node_b}))
-        length_ = std::min(length_, span.end(state.q) - span.start(state.q));
+    for (const int i : spans_beside(mesh, added))
+      length_ = std::min(length_, mesh.spans[i].end(state.q) - mesh.spans[i].start(state.q));
     for (const auto& [beam, i] : with_neighbours(mesh, added))
       take(beam, mesh.nodes[beam][i], added.contains({beam, i}));
     free_.insert(free_.end(), slopes_.begin(), slopes_.end());

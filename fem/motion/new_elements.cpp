@@ -1,7 +1,5 @@
 #include "fem/motion/new_elements.h"
 
-#include <vector>
-
 #include "fem/motion/carried_sections.h"
 
 namespace nurbeam {
@@ -60,11 +58,25 @@ NodeSet without_pointwise_strain(const BeamModel& model, NodeSet nodes) {
   return nodes;
 }
 
+std::vector<int> spans_beside(const Mesh& mesh, const NodeSet& nodes) {
+  std::set<int> spans;
+  for (const auto& [beam, node] : nodes) {
+    const int first = mesh.first_span[beam], end = mesh.first_span[beam + 1];
+    if (first == end) continue;  // a guide
+    if (first + node < end) spans.insert(first + node);
+    // On a ring the last one ends at the first node.
+    const int before = node > 0 ? first + node - 1 : end - 1;
+    if (mesh.spans[before].node_b == node) spans.insert(before);
+  }
+  return {spans.begin(), spans.end()};
+}
+
 NodeSet with_neighbours(const Mesh& mesh, const NodeSet& nodes) {
   NodeSet wider = nodes;
-  for (const MeshSpan& span : mesh.spans)
-    if (nodes.contains({span.beam, span.node_a}) || nodes.contains({span.beam, span.node_b}))
-      wider.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});
+  for (const int i : spans_beside(mesh, nodes)) {
+    const MeshSpan& span = mesh.spans[i];
+    wider.insert({{span.beam, span.node_a}, {span.beam, span.node_b}});
+  }
   return wider;
 }
 

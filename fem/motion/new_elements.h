@@ -1,6 +1,7 @@
 #pragma once
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "fem/system/beam_system.h"
 
@@ -20,6 +21,9 @@ NodeSet nodes_of_new_elements(const BeamSystem& from, const BeamSystem& to);
 
 /// Those of beams whose strain is not pointwise.
 NodeSet without_pointwise_strain(const BeamModel& model, NodeSet nodes);
+
+/// Indices of the spans that begin or end at these, in order.
+std::vector<int> spans_beside(const Mesh& mesh, const NodeSet& nodes);
 
 /// These and their neighbours.
 NodeSet with_neighbours(const Mesh& mesh, const NodeSet& nodes);

@@ -20,7 +20,8 @@ class Surroundings {
       : system_(system), state_(state) {
     const Mesh& mesh = system.mesh();
     for (const auto& [beam, i] : nodes) take(mesh.nodes[beam][i]);
-    for (const MeshSpan& span : mesh.spans) {
+    for (const int i : spans_beside(mesh, nodes)) {
+      const MeshSpan& span = mesh.spans[i];
       if (!nodes.contains({span.beam, span.node_a}) || !nodes.contains({span.beam, span.node_b})) continue;
       if (span.bubble >= 0) turns_.insert(span.bubble);
       take_points_on(span);

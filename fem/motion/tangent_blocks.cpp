@@ -4,8 +4,6 @@
 #include <memory>
 #include <numeric>
 
-#include "fem/system/with_assembly.h"
-
 namespace nurbeam {
 
 TangentBlocks::TangentBlocks(const BeamSystem& system, const State& state, const TangentWeights& weights,
@@ -35,14 +33,10 @@ TangentBlocks::TangentBlocks(const BeamSystem& system, const State& state, const
 
 Eigen::VectorXd residual_of(const BeamSystem& system, const State& state,
                             const std::vector<int>& coordinates) {
-  Eigen::VectorXd dynamics = Eigen::VectorXd::Zero(system.coordinate_count()),
-                  none(system.constraint_count());
-  std::vector<bool> wanted(static_cast<std::size_t>(system.coordinate_count()), false);
+  Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
+  std::vector<bool> wanted(static_cast<std::size_t>(dynamics.size() + constraints.size()), false);
   for (const int coordinate : coordinates) wanted[coordinate] = true;
-  with_assembly(
-      system, [&](const auto& assembly) {
-        assembly.add_residual_of(assembly.elements_at(wanted), state, dynamics, none);
-      });
+  system.residual_near(state, wanted, dynamics, constraints);
   return dynamics(coordinates);
 }
 

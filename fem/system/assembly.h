@@ -95,8 +95,6 @@ class Assembly final : public SecondOrderSystem {
   /// all that the constraints need.
   void add_residual_of(const std::vector<int>& elements, const State& state,
                        Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints) const;
-  /// The elements with one of these coordinates, of which `wanted` has one for each unknown.
-  std::vector<int> elements_at(const std::vector<bool>& wanted) const;
   /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
   std::vector<PointAction> actions(const State& state) const;
   /// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them,
@@ -116,6 +114,8 @@ class Assembly final : public SecondOrderSystem {
   void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override;
   void tangents(const State& state, const std::array<TangentWeights, 2>& w,
                 const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const override;
+  void residual_near(const State& state, const std::vector<bool>& near, Eigen::Ref<Eigen::VectorXd> dynamics,
+                     Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                     double* values) const override;
   /// Of elements whose ends move and of the places of joints, and what constraints tie to them.

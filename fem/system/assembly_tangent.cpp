@@ -1,4 +1,4 @@
-// The tangents of an assembly.
+// The tangents of an assembly, and what it is asked for near some unknowns.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -211,19 +211,20 @@ void Assembly<D>::tangent_near(const State& state, const TangentWeights& w, cons
 }
 
 template <int D>
-std::vector<int> Assembly<D>::elements_at(const std::vector<bool>& wanted) const {
-  const Near near(*this, wanted);
-  std::vector<int> elements;
-  const auto take = [&](int element) {
-    if (near(element)) elements.push_back(element);
-  };
-  for (const Walk& walk : walks_) {
-    const int* begin = walk.batched.data();
-    for (std::size_t i = 0; i < walk.batches.size(); begin += walk.batches[i++].count())
-      if (near(walk.reaches[i])) std::for_each(begin, begin + walk.batches[i].count(), take);
-    std::for_each(walk.others.begin(), walk.others.end(), take);
+void Assembly<D>::residual_near(const State& state, const std::vector<bool>& near,
+                                Eigen::Ref<Eigen::VectorXd> dynamics,
+                                Eigen::Ref<Eigen::VectorXd> constraints) const {
+  const Near wanted(*this, near);
+  dynamics.setZero();
+  for (int b = 0; b < static_cast<int>(model_->beams.size()); ++b) {
+    const Vector load = line_load(b, state);
+    const auto& [batches, batched, others, reaches] = walks_[b];
+    for (int i = 0; i < static_cast<int>(batches.size()); ++i)
+      if (wanted(reaches[i])) add_part(b, i, state, load, dynamics);
+    for (const int i : others)
+      if (wanted(i)) add_element(elements_[i], state, load, dynamics);
   }
-  return elements;
+  add_forces_and_constraints(state, dynamics, constraints);
 }
 
 template <int D>
@@ -264,8 +265,10 @@ template void Assembly<2>::tangent_near(const State&, const TangentWeights&, con
                                         double*) const;
 template void Assembly<3>::tangent_near(const State&, const TangentWeights&, const std::vector<bool>&,
                                         double*) const;
-template std::vector<int> Assembly<2>::elements_at(const std::vector<bool>&) const;
-template std::vector<int> Assembly<3>::elements_at(const std::vector<bool>&) const;
+template void Assembly<2>::residual_near(const State&, const std::vector<bool>&, Eigen::Ref<Eigen::VectorXd>,
+                                         Eigen::Ref<Eigen::VectorXd>) const;
+template void Assembly<3>::residual_near(const State&, const std::vector<bool>&, Eigen::Ref<Eigen::VectorXd>,
+                                         Eigen::Ref<Eigen::VectorXd>) const;
 template void Assembly<2>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
 template void Assembly<3>::moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd&) const;
 

@@ -83,6 +83,11 @@ void BeamSystem::tangents(const State& state, const std::array<TangentWeights, 2
                           const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const {
   system_->tangents(state, w, kkt);
 }
+void BeamSystem::residual_near(const State& state, const std::vector<bool>& near,
+                               Eigen::Ref<Eigen::VectorXd> dynamics,
+                               Eigen::Ref<Eigen::VectorXd> constraints) const {
+  system_->residual_near(state, near, dynamics, constraints);
+}
 void BeamSystem::tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                               double* values) const {
   system_->tangent_near(state, w, near, values);

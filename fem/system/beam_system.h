@@ -51,6 +51,8 @@ class BeamSystem final : public SecondOrderSystem {
   void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const override;
   void tangents(const State& state, const std::array<TangentWeights, 2>& w,
                 const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const override;
+  void residual_near(const State& state, const std::vector<bool>& near, Eigen::Ref<Eigen::VectorXd> dynamics,
+                     Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                     double* values) const override;
   const std::vector<int>& moving_unknowns() const override;

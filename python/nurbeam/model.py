@@ -454,6 +454,8 @@ class Model:
             raise ValueError(f'there are no steps to take in an analysis of the type "{built.analysis}"; use run')
         if start is not None and not isinstance(start, Checkpoint):
             raise TypeError(f"start is {start!r}; expected a Checkpoint: simulation.checkpoint or Checkpoint.load(file)")
+        if start is not None and built.analysis != "dynamic":
+            raise ValueError(f'no motion goes on in an analysis of the type "{built.analysis}"; leave start out')
         return Simulation(_core.LiveRun.begin(built, self._functions(), start._core if start else None), built)
 
     def system(self, **analysis: Any) -> System:

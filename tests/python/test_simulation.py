@@ -329,6 +329,13 @@ def test_a_checkpoint_of_another_model_is_refused(tmp_path):
     swinging().simulate(**RUN, start=nb.Checkpoint.load(tmp_path / "out" / "restart.nc"))
 
 
+def test_what_does_not_move_cannot_go_on_from_a_checkpoint():
+    simulation = swinging().simulate(**RUN)
+    simulation.run_until(0.01)
+    with pytest.raises(ValueError, match='no motion goes on in an analysis of the type "static"; leave start out'):
+        swinging().simulate(type="static", start=simulation.checkpoint)
+
+
 def test_resuming_a_run_with_functions_says_that_they_are_not_compared(tmp_path):
     def pushed(by):
         model = straight_cantilever()

@@ -139,6 +139,24 @@ TEST(TangentNear, IsRightInTheRowsThatAreNear) {
   }
 }
 
+TEST(ResidualNear, IsRightInTheRowsThatAreNear) {
+  for (const int dimension : {2, 3}) {
+    std::mt19937 random(50 + dimension);
+    const BeamSystem system(testing::model_with_everything(random, dimension));
+    const State state = disturbed_state(system, random);
+    const int n = system.coordinate_count(), m = system.constraint_count();
+    Eigen::VectorXd whole(n), closed(m), dynamics(n), constraints(m);
+    system.residual(state, whole, closed);
+    for (int row = 0; row < n; ++row) {
+      std::vector<bool> near(static_cast<std::size_t>(n + m), false);
+      near[row] = true;
+      system.residual_near(state, near, dynamics, constraints);
+      EXPECT_NEAR(dynamics[row], whole[row], 1e-12 * whole.norm()) << row;
+      EXPECT_EQ(constraints, closed);
+    }
+  }
+}
+
 TEST(LocalVelocities, HaveTheMomentumThatThoseOfAllUnknownsHave) {
   for (const int dimension : {2, 3})
     for_each_change(
