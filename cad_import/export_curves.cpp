@@ -31,11 +31,16 @@ void check_unit(const fs::path& file, CadFormat format, LengthUnit unit) {
         "STEP, IGES or DXF");
 }
 
-// A control character would break a line of the file, and with it the columns of IGES.
-void check_name(const std::string& name) {
-  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c); }))
-    throw std::invalid_argument("the curve name '" + name + "' holds a control character; it must hold none");
+// A control character, which a curve may have brought from its file, would break a line, and with it the
+// columns of IGES: a space stands for it.
+void put_in_line(std::string& name, std::string& part) {
+  for (std::string* text : {&name, &part})
+    std::replace_if(
+        text->begin(), text->end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
 }
+
+void put_in_line(NamedPipe& pipe) { put_in_line(pipe.axis.name, pipe.axis.part); }
+void put_in_line(SweptProfile& profile) { put_in_line(profile.name, profile.part); }
 
 constexpr std::chrono::seconds patience{120};
 
@@ -49,8 +54,6 @@ std::string reason_of(const ChildResult& result, const char* work) {
 }
 
 void check_solid(const NamedPipe& pipe) {
-  check_name(pipe.axis.name);
-  check_name(pipe.axis.part);
   if (!(pipe.radius > 0 && std::isfinite(pipe.radius)))
     throw std::invalid_argument("the radius of '" + pipe.axis.name + "' is " + text_of(pipe.radius) +
                                 " m; it must be positive");
@@ -61,8 +64,6 @@ void check_solid(const NamedPipe& pipe) {
 }
 
 void check_solid(const SweptProfile& profile) {
-  check_name(profile.name);
-  check_name(profile.part);
   if (!(profile.volume > 0 && std::isfinite(profile.volume)))
     throw std::invalid_argument("the volume of '" + profile.name + "' is " + text_of(profile.volume) +
                                 " m^3; it must be positive");
@@ -82,11 +83,9 @@ WriteCurvesRequest request_for(const CurvesFile& file) {
   check_unit(file.path, format, file.unit);
   if (file.curves.empty())
     throw std::invalid_argument("no curve to write to " + file.path.string() + "; give at least one");
-  for (const NamedCurve& curve : file.curves) {
-    check_name(curve.name);
-    check_name(curve.part);
-  }
-  return {format, file.curves, file.unit, file.schema};
+  std::vector<NamedCurve> curves = file.curves;
+  for (NamedCurve& curve : curves) put_in_line(curve.name, curve.part);
+  return {format, std::move(curves), file.unit, file.schema};
 }
 
 }  // namespace
@@ -143,8 +142,15 @@ std::vector<Diagnostic> export_solids(const fs::path& file, const std::vector<Na
   check_unit(file, format, unit);
   if (solids.empty())
     throw std::invalid_argument("no pipe to write to " + file.string() + "; give at least one");
-  for (const NamedSolid& solid : solids) std::visit([](const auto& of_kind) { check_solid(of_kind); }, solid);
-  const ChildResult result = asked(WriteSolidsRequest{format, solids, unit, schema}, {patience});
+  std::vector<NamedSolid> in_line = solids;
+  for (NamedSolid& solid : in_line)
+    std::visit(
+        [](auto& of_kind) {
+          check_solid(of_kind);
+          put_in_line(of_kind);
+        },
+        solid);
+  const ChildResult result = asked(WriteSolidsRequest{format, std::move(in_line), unit, schema}, {patience});
   if (result.status == ChildResult::Status::finished) return write_at_once(file, result.output);
   return {{Severity::error, file.string(),
            "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"}};

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cad_import/occt/end_parameters.h"
 #include "cad_import/report/length_unit.h"
 #include "nurbs/number_text.h"
 
@@ -68,6 +69,8 @@ TrimmedCurve curve_of(TopoDS_Edge edge) {
   while (const auto inner = Handle(Geom_TrimmedCurve)::DownCast(trimmed.curve))
     trimmed.curve = inner->BasisCurve();
   trimmed.curve = plain_form(trimmed.curve);
+  if (const auto spline = Handle(Geom_BSplineCurve)::DownCast(trimmed.curve); !spline.IsNull())
+    correct_ends(edge, *spline, trimmed.first, trimmed.last);
   if (Precision::IsInfinite(trimmed.first) || Precision::IsInfinite(trimmed.last))
     throw std::runtime_error("the curve is unbounded; trim it in the CAD system");
   if (!(trimmed.first < trimmed.last)) throw std::runtime_error("the parameter range of the curve is empty");

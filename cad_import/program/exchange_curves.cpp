@@ -17,9 +17,11 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/occt/centre_line.h"
@@ -199,6 +201,13 @@ void add_beside(int representation, std::optional<int> own, const NurbsCurve& cu
            "," + number(wires) + ")");
 }
 
+/// Whether an instance of this kind is geometry that is made of the curves that it refers to.
+bool is_made_of_curves(const std::string& keyword) {
+  const auto names = [&](std::string_view part) { return keyword.find(part) != std::string::npos; };
+  return (names("CURVE") || names("SURFACE") || names("SOLID")) && !keyword.ends_with("_SET") &&
+         !names("STYLE") && !names("OCCURRENCE") && !names("REPRESENTATION");
+}
+
 /// Why the curve cannot change where it stands; nothing if it can.
 std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundCurve& found,
                                     const StepInstances& step) {
@@ -206,8 +215,7 @@ std::optional<std::string> obstacle(const DeformedCurve& wanted, const FoundCurv
   if (found.piece) return "the curve is a piece of this composite curve, which stays as it is";
   if (!found.free) return "the edge bounds faces, which do not move with it";
   for (const int user : step.users(found.instance))
-    if (const std::string kind = step.keyword(user);
-        kind == "TRIMMED_CURVE" || kind == "EDGE_CURVE" || kind == "OFFSET_CURVE_3D")
+    if (is_made_of_curves(step.keyword(user)))
       return "#" + std::to_string(user) + " is made of the same curve";
   return std::nullopt;
 }
@@ -261,12 +269,17 @@ std::vector<std::string> place_on_top(const DeformedCurve& wanted, const std::st
   return {"'" + wanted.name + "': " + reason + "; the deformed curve was added to the topmost part"};
 }
 
-std::vector<std::string> place(const DeformedCurve& wanted, const RestatedCurves& restated,
-                               const STEPControl_Reader& reader, StepInstances& step) {
+/// Into the file, whose curves `found` are; nothing: it is none of them. `others_too`: further beams deform
+/// the same curve, at other places of its part.
+std::vector<std::string> place(const DeformedCurve& wanted, const std::optional<FoundCurve>& found,
+                               bool others_too, const TruePlaces& places, const STEPControl_Reader& reader,
+                               StepInstances& step) {
   const auto model = Handle(StepData_StepModel)::DownCast(reader.Model());
-  const TruePlaces places = true_places(reader, restated);
-  std::optional<FoundCurve> found = find_edge(wanted.drawn, places, reader);
-  if (!found) found = find_lost(wanted.drawn, restated, reader);
+  if (found && others_too)
+    return place_on_top(wanted,
+                        "other beams deform the same curve #" + std::to_string(found->instance) +
+                            " at other places of its part",
+                        *model, step);
   if (found) return place_found(wanted, *found, *model, step);
   if (const auto reason = absence(wanted.drawn, places, reader))
     return place_on_top(wanted, *reason, *model, step);
@@ -294,8 +307,17 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
     reader.TransferRoots();
     StepInstances step(content);
     Exchanged result;
+    const TruePlaces places = true_places(reader, restated);
+    std::vector<std::optional<FoundCurve>> found;
+    std::map<int, int> beams;  // by the instance of their curve
     for (const DeformedCurve& curve : curves) {
-      const std::vector<std::string> warnings = place(curve, restated, reader, step);
+      found.push_back(find_edge(curve.drawn, places, reader));
+      if (!found.back()) found.back() = find_lost(curve.drawn, restated, reader);
+      if (found.back() && !found.back()->piece) ++beams[found.back()->instance];
+    }
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const bool others_too = found[i] && beams[found[i]->instance] > 1;
+      const std::vector<std::string> warnings = place(curves[i], found[i], others_too, places, reader, step);
       result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     }
     result.text = step.text();

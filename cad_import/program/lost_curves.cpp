@@ -18,6 +18,7 @@
 #include <StepGeom_TrimmedCurve.hxx>
 #include <StepRepr_MappedItem.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
+#include <StepRepr_Representation.hxx>
 #include <StepRepr_RepresentationRelationshipWithTransformation.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_GeometricSet.hxx>
@@ -34,6 +35,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "cad_import/occt/appearance.h"
 #include "cad_import/occt/placed_curve.h"
 #include "cad_import/occt/spline_defect.h"
 #include "cad_import/program/array_curves.h"
@@ -115,12 +117,27 @@ bool failed_to_translate(const Entity& entity, const XSControl_Reader& reader) {
   return !result.IsNull() && result->Check()->HasFailed();
 }
 
-// The curves that no shape was made of, without those that another of them refers to, or that were told of.
+// Whether a set or a representation holds it by itself.
+bool is_held(const Entity& entity, const Interface_Graph& graph) {
+  for (Interface_EntityIterator next = graph.Sharings(entity); next.More(); next.Next())
+    if (next.Value()->IsKind(STANDARD_TYPE(StepShape_GeometricSet)) ||
+        next.Value()->IsKind(STANDARD_TYPE(StepRepr_Representation)))
+      return true;
+  return false;
+}
+
+// The curves that no shape was made of, without those that another of them refers to and nobody
+// else holds, or that were told of.
 std::vector<Entity> lost_curves(const XSControl_Reader& reader, const RestatedCurves& restated) {
   const Interface_InterfaceModel& model = *reader.Model();
   const Interface_Graph& graph = reader.WS()->Graph();
-  EntitySet used;
-  add_references(origins_of_shapes(reader), true, graph, used);
+  const std::vector<Entity> origins = origins_of_shapes(reader);
+  EntitySet used, made;
+  for (const Entity& origin : origins) made.insert(origin.get());
+  const auto stands_alone = [&](const Entity& entity) {
+    return !made.contains(entity.get()) && is_held(entity, graph);
+  };
+  add_references(origins, true, graph, used);
   add_references({restated.parents.begin(), restated.parents.end()}, true, graph, used);
   std::vector<Entity> lost;
   for (int i = 1; i <= model.NbEntities(); ++i) {
@@ -128,11 +145,13 @@ std::vector<Entity> lost_curves(const XSControl_Reader& reader, const RestatedCu
     const bool told = restated.refused.contains(entity.get()) || spline_defect(*entity) ||
                       model.Check(i, /*syntactic=*/Standard_True)->HasFailed() ||
                       (failed_to_translate(entity, reader) && !is_array(entity));
-    if (is_curve(entity) && !used.contains(entity.get()) && !told) lost.push_back(entity);
+    if (is_curve(entity) && !told && (!used.contains(entity.get()) || stands_alone(entity)))
+      lost.push_back(entity);
   }
   EntitySet below;
   add_references(lost, false, graph, below);
-  std::erase_if(lost, [&](const Entity& entity) { return below.contains(entity.get()); });
+  std::erase_if(
+      lost, [&](const Entity& entity) { return below.contains(entity.get()) && !stands_alone(entity); });
   return lost;
 }
 
@@ -194,12 +213,30 @@ struct Coordinates {
   double unit;                    // [m]
 };
 
+// How the file shows it, else what it stands in: a set, a wireframe.
+Appearance appearance_of(const Entity& entity, const XSControl_Reader& reader) {
+  const Appearances appearances = appearances_of(*reader.WS());
+  EntitySet seen;
+  std::vector<Entity> open{entity};
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (const auto shown = appearances.find(open[i].get()); shown != appearances.end()) return shown->second;
+    for (Interface_EntityIterator next = reader.WS()->Graph().Sharings(open[i]); next.More(); next.Next())
+      if (!next.Value()->IsKind(STANDARD_TYPE(StepRepr_Representation)) && seen.insert(next.Value().get()).second)
+        open.push_back(next.Value());
+  }
+  return {};
+}
+
 std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reader& reader,
                                      const RestatedCurves& restated, double unit, double tolerance) {
   if (is_array(entity))
     return array_curves(Handle(IGESData_IGESEntity)::DownCast(entity), reader, restated, unit, tolerance);
   ImportedCurve curve = step_curve(entity, unit, tolerance);
   curve.name = entity_name(entity);
+  const Appearance appearance = appearance_of(entity, reader);
+  curve.layer = appearance.layer;
+  curve.colour = appearance.colour;
+  curve.hidden = appearance.hidden;
   return {std::move(curve)};
 }
 
@@ -244,11 +281,18 @@ class Whole {
   Whole(const XSControl_Reader& reader, const RestatedCurves& restated, double unit)
       : reader_(reader), restated_(restated), unit_(unit), is_one_part_(has_one_part(*reader.Model())) {
     const std::string part = only_part(*reader.Model());
-    if (is_one_part_) own_ = {{gp_Trsf(), {part, part}}};
+    if (!is_one_part_) return;
+    own_ = {{gp_Trsf(), {part, part}}};
+    const Interface_InterfaceModel& model = *reader.Model();
+    for (int i = 1; i <= model.NbEntities() && context_.IsNull(); ++i)
+      if (length_unit_of(model.Value(i))) context_ = model.Value(i);
   }
 
   Coordinates of(const Entity& entity) {
-    if (is_one_part_) return {own_, unit_};
+    if (is_one_part_) {
+      if (!context_.IsNull()) use_units_of(context_);  // the transfer leaves others behind
+      return {own_, unit_};
+    }
     const std::optional<Holder> holder = holder_of(entity, reader_.WS()->Graph());
     const std::optional<double> unit = holder ? length_unit_of(holder->context) : std::nullopt;
     if (!unit) return {};
@@ -262,6 +306,7 @@ class Whole {
   const RestatedCurves& restated_;
   double unit_;
   bool is_one_part_;
+  Entity context_;  // of the units of one part; null where there are none
   std::vector<PartPlace> own_;
   std::optional<PartPlaces> parts_;
 };

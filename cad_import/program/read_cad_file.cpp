@@ -10,6 +10,9 @@
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepGeom_Circle.hxx>
+#include <StepGeom_Ellipse.hxx>
+#include <StepGeom_TrimmedCurve.hxx>
 #include <TopoDS_Shape.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -116,6 +119,21 @@ void report_unit(double in_metres, ImportReport& report) {
 // -------------------------------------------------------------------------------------------------------
 // STEP
 
+// That pieces of circles and ellipses may be meant in degrees.
+void warn_of_angles(const Interface_InterfaceModel& model, ImportReport& report) {
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto piece = Handle(StepGeom_TrimmedCurve)::DownCast(model.Value(i));
+    if (piece.IsNull() || piece->BasisCurve().IsNull() ||
+        !(piece->BasisCurve()->IsKind(STANDARD_TYPE(StepGeom_Circle)) ||
+          piece->BasisCurve()->IsKind(STANDARD_TYPE(StepGeom_Ellipse))) ||
+        piece->MasterRepresentation() == StepGeom_tpCartesian)
+      continue;
+    return add_diagnostic(report, Severity::warning, entity_label(model, piece),
+                          "it is trimmed by angles, and the file declares no unit for these; radians are "
+                          "assumed");
+  }
+}
+
 void report_step_unit(const Interface_InterfaceModel& model, ImportReport& report) {
   const std::set<double> units = length_units_of(model);
   report.resolution = resolution_of(model);
@@ -135,7 +153,7 @@ void read_step(const std::string& content, double tolerance, const ReadFile& rea
   start_step();
   STEPControl_Reader reader;
   read(reader, content, report);
-  restate_units(*reader.Model());
+  if (restate_units(*reader.Model())) warn_of_angles(*reader.Model(), report);
   report_step_unit(*reader.Model(), report);
   join_supplemental_geometry(reader);
   const RestatedCurves restated = transfer(reader, tolerance, report);

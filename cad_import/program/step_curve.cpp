@@ -1,8 +1,11 @@
 #include "cad_import/program/step_curve.h"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <ElCLib.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_CartesianPoint.hxx>
 #include <Geom_Curve.hxx>
+#include <Geom_Hyperbola.hxx>
 #include <StepGeom_BSplineCurve.hxx>
 #include <StepGeom_BSplineCurveWithKnots.hxx>
 #include <StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve.hxx>
@@ -18,10 +21,12 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "cad_import/occt/edge_curve.h"
+#include "cad_import/occt/end_parameters.h"
 
 namespace nurbeam {
 namespace {
@@ -100,6 +105,27 @@ gp_Pnt vertex_of(const Handle(StepShape_Vertex) & vertex) {
   return StepToGeom::MakeCartesianPoint(place)->Pnt();
 }
 
+/// OpenCASCADE's own search fails where a hyperbola is steep, and on some splines.
+std::optional<double> parameter_on(const Handle(Geom_Curve) & curve, const gp_Pnt& point) {
+  constexpr double on_it = 1e-4;  // [mm]
+  if (const auto hyperbola = Handle(Geom_Hyperbola)::DownCast(curve); !hyperbola.IsNull())
+    return ElCLib::Parameter(hyperbola->Hypr(), point);
+  const auto spline = Handle(Geom_BSplineCurve)::DownCast(curve);
+  if (spline.IsNull() || spline->IsPeriodic() || spline->IsClosed()) return std::nullopt;
+  const double parameter = closest_parameter(*spline, point);
+  if (spline->Value(parameter).Distance(point) > on_it) return std::nullopt;
+  return parameter;
+}
+
+void bound(const Handle(Geom_Curve) & curve, const gp_Pnt& start, const gp_Pnt& end,
+           BRepBuilderAPI_MakeEdge& maker) {
+  const std::optional<double> first = parameter_on(curve, start), last = parameter_on(curve, end);
+  if (first && last && *first < *last)
+    maker.Init(curve, *first, *last);
+  else
+    maker.Init(curve, start, end);
+}
+
 /// From its first vertex to its last: against its curve where it has not the sense of that.
 TopoDS_Edge edge_of(const Handle(Standard_Transient) & entity) {
   const auto edge = Handle(StepShape_EdgeCurve)::DownCast(entity);
@@ -110,9 +136,9 @@ TopoDS_Edge edge_of(const Handle(Standard_Transient) & entity) {
   if (edge.IsNull())
     maker.Init(curve);
   else if (edge->SameSense())
-    maker.Init(curve, vertex_of(edge->EdgeStart()), vertex_of(edge->EdgeEnd()));
+    bound(curve, vertex_of(edge->EdgeStart()), vertex_of(edge->EdgeEnd()), maker);
   else
-    maker.Init(curve, vertex_of(edge->EdgeEnd()), vertex_of(edge->EdgeStart()));
+    bound(curve, vertex_of(edge->EdgeEnd()), vertex_of(edge->EdgeStart()), maker);
   if (!maker.IsDone()) throw std::runtime_error("it is not bounded, or its ends are not on it");
   const bool backwards = !edge.IsNull() && !edge->SameSense();
   return backwards ? TopoDS::Edge(maker.Edge().Reversed()) : maker.Edge();

@@ -1,5 +1,6 @@
 #include "cad_import/step/encoded_text.h"
 
+#include <cctype>
 #include <cstdint>
 #include <sstream>
 
@@ -25,7 +26,11 @@ std::string step_encoded(std::string_view utf8) {
 
 std::string step_string(std::string_view utf8) {
   std::string text;
-  for (const char c : utf8) text.append(c == '\'' || c == '\\' ? 2 : 1, c);
+  for (const char c : utf8)
+    if (std::iscntrl(static_cast<unsigned char>(c)))
+      text += ' ';  // it would break a line of the file
+    else
+      text.append(c == '\'' || c == '\\' ? 2 : 1, c);
   return step_encoded(text);
 }
 

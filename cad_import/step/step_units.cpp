@@ -3,7 +3,9 @@
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_ConversionBasedUnit.hxx>
 #include <StepBasic_MeasureWithUnit.hxx>
+#include <StepBasic_HArray1OfNamedUnit.hxx>
 #include <StepBasic_NamedUnit.hxx>
+#include <StepBasic_SiUnitAndPlaneAngleUnit.hxx>
 #include <StepBasic_Unit.hxx>
 #include <StepData_GlobalFactors.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
@@ -24,6 +26,22 @@ Handle(StepRepr_GlobalUncertaintyAssignedContext) uncertainty_of(const Handle(St
                           : context->GlobalUncertaintyAssignedContext();
 }
 
+bool has_plane_angle(const Handle(StepRepr_GlobalUnitAssignedContext) & units) {
+  STEPConstruct_UnitContext factors;
+  factors.ComputeFactors(units);
+  return factors.PlaneAngleDone();
+}
+
+void add_radian(StepRepr_GlobalUnitAssignedContext& context) {
+  const int count = context.Units().IsNull() ? 0 : context.NbUnits();
+  const auto units = new StepBasic_HArray1OfNamedUnit(1, count + 1);
+  for (int i = 1; i <= count; ++i) units->SetValue(i, context.UnitsValue(i));
+  const Handle(StepBasic_SiUnitAndPlaneAngleUnit) radian = new StepBasic_SiUnitAndPlaneAngleUnit;
+  radian->Init(Standard_False, StepBasic_spMilli, StepBasic_sunRadian);
+  units->SetValue(count + 1, radian);
+  context.SetUnits(units);
+}
+
 /// What one of this unit is, in another one; null where it is no multiple of one.
 Handle(StepBasic_MeasureWithUnit) measure_of(const Handle(Standard_Transient) & unit) {
   const auto multiple = Handle(StepBasic_ConversionBasedUnit)::DownCast(unit);
@@ -42,8 +60,9 @@ Handle(StepRepr_GlobalUnitAssignedContext) units_of(const Handle(Standard_Transi
   return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(entity);
 }
 
-void restate_units(const Interface_InterfaceModel& model) {
+bool restate_units(const Interface_InterfaceModel& model) {
   constexpr int deepest = 100;
+  bool lacks_angle = false;
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Handle(StepBasic_MeasureWithUnit) measure = measure_of(model.Value(i));
     for (int depth = 0; !measure.IsNull() && depth < deepest; ++depth) {
@@ -53,6 +72,13 @@ void restate_units(const Interface_InterfaceModel& model) {
       measure->SetUnitComponent(next->UnitComponent());
     }
   }
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(StepRepr_GlobalUnitAssignedContext) units = units_of(model.Value(i));
+    if (units.IsNull() || has_plane_angle(units)) continue;
+    add_radian(*units);
+    lacks_angle = true;
+  }
+  return lacks_angle;
 }
 
 std::optional<double> length_unit_of(const Handle(Standard_Transient) & context) {

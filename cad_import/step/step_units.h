@@ -12,8 +12,9 @@ opencascade::handle<StepRepr_GlobalUnitAssignedContext> units_of(
     const opencascade::handle<Standard_Transient>& context);
 
 /// Says units that are multiples of such ones, a foot of 12 inches, in units of the SI: OpenCASCADE knows no
-/// others.
-void restate_units(const Interface_InterfaceModel& model);
+/// others. Contexts without a unit of plane angles get the radian, where OpenCASCADE takes degrees; whether
+/// there are any.
+bool restate_units(const Interface_InterfaceModel& model);
 
 /// The length unit of a representation context [m], where it has one.
 std::optional<double> length_unit_of(const opencascade::handle<Standard_Transient>& context);

@@ -1,10 +1,12 @@
 #include "fem/system/material_points.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "fem/element/quadrature.h"
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
 
@@ -27,6 +29,41 @@ Eigen::Matrix4d control_points(const ElementBasis<double>& basis, const ElementV
   nodal.col(1) *= J_a;
   nodal.col(3) *= J_b;
   return to_bezier(nodal, Eigen::Map<const Eigen::Vector4d>(weights.data()), basis.length()).points();
+}
+
+// How much of the energy of a uniform bending an element is too stiff by: the part of a curvature of one that
+// second derivatives of its shape functions in s do not reach. None where the drawing is even, whose shapes
+// are the cubics in s.
+template <int D>
+double bending_misfit(const MeshElement<D>& e, const ElementVector<D>& q) {
+  const double s_a = q[ElementLayout<D>::place(0)], length = q[ElementLayout<D>::place(1)] - s_a;
+  Eigen::Matrix<double, GaussRule::size, 4> shapes;
+  Eigen::Matrix<double, GaussRule::size, 1> one;
+  for (int g = 0; g < GaussRule::size; ++g) {
+    one[g] = std::sqrt(GaussRule::weights[g]);
+    const std::array<double, 4> d2 = e.element.shape(q, e.local(q, s_a + length * GaussRule::points[g])).d2;
+    shapes.row(g) = one[g] * Eigen::Map<const Eigen::RowVector4d>(d2.data());
+  }
+  for (auto column : shapes.colwise())
+    if (const double size = column.norm(); size > 0) column /= size;
+  Eigen::ColPivHouseholderQR<Eigen::Matrix<double, GaussRule::size, 4>> fit;
+  fit.setThreshold(1e-10);
+  fit.compute(shapes);
+  return (one - shapes * fit.solve(one)).squaredNorm();
+}
+
+// The root of its mean square since the stress-free shape [1/m].
+template <int D>
+double elastic_curvature(const MeshElement<D>& e, const State& state, double length) {
+  const BeamProperties& beam = e.element.properties();
+  double energy = e.element.energy(gather<D>(e, state), Eigen::Matrix<double, D, 1>::Zero()).bending,
+         stiffness = beam.bending_stiffness;
+  if constexpr (D == 3)
+    if (e.twist && beam.sections) {
+      energy += e.twist->element.energy(gather_twist(e, state)).bending;
+      stiffness = std::min(beam.sections->bending_1, beam.sections->bending_2);
+    }
+  return stiffness > 0 ? std::sqrt(2 * std::max(energy, 0.0) / (stiffness * length)) : 0;
 }
 
 // The couple as one number: in the plane about its normal; in space, where a beam without torsion carries
@@ -240,7 +277,9 @@ double position_error(const BeamSystem& system, const State& state, int span) {
         const MeshElement<D>& e = a.elements()[span];
         const ElementVector<D> q = gather<D>(e, state.q);
         const double length = q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)];
-        return quartic_strain_to_error * std::abs(e.element.quartic_strain(q)) * length;
+        const double of_shape = quartic_strain_to_error * std::abs(e.element.quartic_strain(q)) * length;
+        const double turned = elastic_curvature<D>(e, state, length) * length * bending_misfit<D>(e, q);
+        return of_shape + turned * e.element.curve().length();
       });
 }
 

@@ -324,10 +324,18 @@ TEST(ExportCurves, TheHeaderOfAStepFileNamesWhatWroteIt) {
   EXPECT_NE(text.find("'nurbeam','nurbeam'"), std::string::npos);
 }
 
-TEST(ExportCurves, RefusesNoCurvesAndNamesWithControlCharacters) {
-  EXPECT_THROW((void)export_curves("a.step", {}, LengthUnit::metre), std::invalid_argument);
-  EXPECT_THROW((void)export_curves("a.step", {{"a\nb", quarter_circle(1)}}, LengthUnit::metre),
-               std::invalid_argument);
+TEST(ExportCurves, RefusesNoCurves) {
+  const ScratchDirectory scratch;
+  EXPECT_THROW((void)export_curves(scratch.path() / "a.step", {}, LengthUnit::metre), std::invalid_argument);
+}
+
+TEST_P(RoundTrip, PutsSpacesForControlCharactersOfNames) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / ("names" + GetParam().extension);
+  ASSERT_TRUE(export_curves(file, {{"a\nb\tc", quarter_circle(1)}}, GetParam().unit).empty());
+  const ImportReport report = import_curves(file);
+  ASSERT_EQ(report.curves.size(), 1u);
+  EXPECT_EQ(report.curves[0].name, "a b c");
 }
 
 TEST(ExportCurves, SaysThatACurveIsOfTooHighADegree) {

@@ -148,6 +148,67 @@ TEST(ExportIntoStep, APartAtTwoPlacesChangesAtBothWithAWarning) {
   EXPECT_GT(difference(after.curves[0].curve, before.curves[0].curve), 1e-3);
 }
 
+TEST(ExportIntoStep, TwoBeamsOnTwoPlacesOfAPartAreBothInTheFile) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  const BRep_Builder builder;
+  TopoDS_Compound part;
+  builder.MakeCompound(part);
+  builder.Add(part, arch(50));
+  write_assembly(source, assembly(part, 2));
+  const ImportReport before = import_curves(source);
+  ASSERT_EQ(before.curves.size(), 2u);
+  std::vector<DeformedCurve> wanted;
+  for (const ImportedCurve& curve : before.curves)
+    wanted.push_back({curve.curve, stretched(curve.curve), "arch " + std::to_string(wanted.size() + 1)});
+  const auto warnings = export_into_step(source, target, wanted);
+  ASSERT_EQ(warnings.size(), 2u);
+  for (const auto& warning : warnings)
+    EXPECT_NE(warning.message.find("other beams deform the same curve"), std::string::npos) << warning.message;
+  const ImportReport after = import_curves(target);
+  ASSERT_EQ(after.curves.size(), 4u);
+  for (const DeformedCurve& each : wanted)
+    EXPECT_TRUE(std::any_of(after.curves.begin(), after.curves.end(), [&](const ImportedCurve& curve) {
+      return curve.name == each.name && difference(curve.curve, each.deformed) <= 1e-14;
+    })) << each.name;
+  for (const ImportedCurve& curve : before.curves)
+    EXPECT_TRUE(std::any_of(after.curves.begin(), after.curves.end(), [&](const ImportedCurve& kept) {
+      return difference(curve.curve, kept.curve) == 0;
+    }));
+}
+
+TEST(ExportIntoStep, WhatIsMadeOfTheCurveStaysAndTheCurveIsAddedBesideIt) {
+  const ScratchDirectory scratch;
+  const std::string line =
+      "#100 = B_SPLINE_CURVE_WITH_KNOTS('line',1,(#200,#201),.UNSPECIFIED.,.F.,.F.,(2,2),(0.,1.),.UNSPECIFIED.);\n"
+      "#200 = CARTESIAN_POINT('',(0.,0.,0.));\n#201 = CARTESIAN_POINT('',(3.,0.,0.));\n"
+      "#202 = CARTESIAN_POINT('',(3.,4.,0.));\n";
+  const std::string replica =
+      "#101 = CURVE_REPLICA('other',#100,#102);\n"
+      "#102 = CARTESIAN_TRANSFORMATION_OPERATOR_3D('','',$,#14,#103,#202,1.,#13);\n"
+      "#103 = DIRECTION('',(0.,1.,0.));\n";
+  const std::string composite =
+      "#101 = COMPOSITE_CURVE('other',(#102,#103),.F.);\n"
+      "#102 = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#100);\n"
+      "#103 = COMPOSITE_CURVE_SEGMENT(.DISCONTINUOUS.,.T.,#104);\n#104 = POLYLINE('',(#201,#202));\n";
+  for (const std::string& made_of_it : {replica, composite}) {
+    const fs::path source = scratch.file("source.step", step_text_of("#100,#101", line + made_of_it));
+    const fs::path target = scratch.path() / "target.step";
+    const ImportReport before = import_curves(source);
+    ASSERT_GE(before.curves.size(), 2u);
+    ASSERT_EQ(before.curves[0].name, "line");
+    const auto warnings =
+        export_into_step(source, target, {{before.curves[0].curve, bent(0.3, true), "line"}});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].message.find("is made of the same curve"), std::string::npos) << warnings[0].message;
+    const ImportReport after = import_curves(target);
+    ASSERT_EQ(after.curves.size(), before.curves.size() + 1);
+    for (std::size_t i = 0; i < before.curves.size(); ++i)
+      EXPECT_EQ(difference(after.curves[i].curve, before.curves[i].curve), 0) << i;
+    EXPECT_LE(difference(after.curves.back().curve, bent(0.3, true)), 2e-15);
+  }
+}
+
 TEST(ExportIntoStep, ACurveThatIsMappedMirroredAtTwiceItsSizeGetsItsShapeInItsOwnCoordinates) {
   const ScratchDirectory scratch;
   const std::string part = step_text_of(

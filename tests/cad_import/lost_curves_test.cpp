@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -105,6 +106,54 @@ TEST(LostCurves, AnEdgeOfAWireRunsFromItsFirstVertexToItsLast) {
     EXPECT_NEAR(start_of(named(wire, "side")->curve).x(), start, 1e-15);
     EXPECT_NEAR(end_of(named(wire, "side")->curve).x(), 3e-3 - start, 1e-15);
   }
+}
+
+TEST(LostCurves, AnEdgeOfAWireIsInTheUnitOfTheFileAndHasItsColour) {
+  const std::string line = points("200", {{0, 0, 0}, {3, 0, 0}});
+  const std::string layer = "#140 = PRESENTATION_LAYER_ASSIGNMENT('wires','',(#129));\n";
+  const ImportReport wire =
+      import_beside_a_circle(line + wireframe_of_a_side("#200", "#201", ".T.") + layer, "", inches);
+  ASSERT_NE(named(wire, "side"), nullptr);
+  EXPECT_NEAR(length(named(wire, "side")->curve), 3 * 0.0254, 1e-15);
+  EXPECT_EQ(named(wire, "side")->layer, "wires");
+}
+
+TEST(LostCurves, AHyperbolaBoundsAWireToo) {
+  // x = 3 cosh u, y = 2 sinh u from u = -1 to 3.
+  const std::string ends =
+      points("200", {{3 * std::cosh(1.0), -2 * std::sinh(1.0), 0}, {3 * std::cosh(3.0), 2 * std::sinh(3.0), 0}});
+  std::string wire = wireframe_of_a_side("#200", "#201", ".T.");
+  const std::string on_line = "#124 = LINE('',#200,#123)";
+  wire.replace(wire.find(on_line), on_line.size(), "#124 = HYPERBOLA('',#11,3.,2.)");
+  const ImportReport report = import_beside_a_circle(ends + wire);
+  ASSERT_NE(named(report, "side"), nullptr);
+  const NurbsCurve& side = named(report, "side")->curve;
+  EXPECT_NEAR(start_of(side).y(), -2e-3 * std::sinh(1.0), 1e-9);
+  EXPECT_NEAR(end_of(side).y(), 2e-3 * std::sinh(3.0), 1e-9);
+  for (double u = 0; u <= 1; u += 0.125) {
+    const Eigen::Vector3d at = side.point(side.knots().start() + u * (side.knots().end() - side.knots().start()));
+    EXPECT_NEAR(std::pow(at.x() / 3e-3, 2) - std::pow(at.y() / 2e-3, 2), 1, 1e-11);
+  }
+}
+
+TEST(LostCurves, ACurveOfASetIsReadBesideWhatIsMadeOfIt) {
+  const ImportReport report = import_beside_a_circle(
+      steep_curve() + "#112 = OFFSET_CURVE_3D('beside',#110,1.,.F.,#13);\n", ",#110,#112");
+  ASSERT_NE(named(report, "steep"), nullptr);
+  EXPECT_NEAR(named(report, "steep")->curve.point(0.3).x(), 0.3 * 30e-3, 1e-16);
+}
+
+TEST(LostCurves, AnglesWithoutAUnitAreRadiansWithAWarning) {
+  std::string text = step_text_of("#101",
+                                  "#100 = CIRCLE('',#11,2.);\n#101 = TRIMMED_CURVE('arc',#100,"
+                                  "(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(1.5)),.T.,.PARAMETER.);\n");
+  const std::string units = "(#27,#28,#29)";
+  text.replace(text.find(units), units.size(), "(#27,#29)");
+  const ImportReport report = import_text(text);
+  ASSERT_EQ(report.curves.size(), 1U);
+  EXPECT_NEAR(length(report.curves[0].curve), 3e-3, 1e-15);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_NE(report.diagnostics[0].message.find("radians are assumed"), std::string::npos);
 }
 
 TEST(LostCurves, SupplementalGeometryWireframesAndPolyLoopsAreRead) {

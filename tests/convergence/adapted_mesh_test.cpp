@@ -56,6 +56,26 @@ TEST(AdaptedMesh, OfALoadedCantileverMeetsItsTolerance) {
       }
 }
 
+TEST(AdaptedMesh, OfAnUnevenlyDrawnCantileverMeetsItsTolerance) {
+  // A line whose parameter runs thirty times as fast at its end as at its start, and one with weights.
+  Eigen::Matrix4d slow_start = line_cubic({0, 0, 0}, {1, 0, 0}).points(), weights = slow_start;
+  slow_start.row(0) << 0, 0.02, 0.04, 1;
+  weights.row(0) << 0, 0.2, 0.1, 1;
+  weights.row(3) << 1, 2, 0.5, 1;
+  for (const Eigen::Matrix4d& drawn : {slow_start, weights})
+    for (const double tolerance : tolerances) {
+      BeamModel model = one_beam({RationalCubic(drawn)}, 2, {1e6, 1, 1}, 4, {{0, true}});
+      model.gravity.setZero();
+      add_force(model, {0, -0.1, 0}, 1);
+      const AdaptedMesh adapted = adapt_mesh(model, {tolerance}, 1000);
+      EXPECT_TRUE(adapted.reached);
+      const Tip exact = stretching_elastica_tip(1e6, 0.1);
+      const double error = (tip_at_rest(model) - Eigen::Vector2d(exact.x, exact.y)).norm();
+      EXPECT_LT(error, tolerance);
+      EXPECT_GT(error, 0.02 * tolerance) << model.beams[0].home_intervals() << " elements";
+    }
+}
+
 TEST(AdaptedMesh, OfABeamRolledUpMeetsItsTolerance) {
   for (const double tolerance : tolerances) {
     BeamModel model = cantilever(1e8);
