@@ -163,7 +163,8 @@ void BandOrder::place_unknowns(const SparseView& pattern) {
   for (int first = 0, end = 0; first < held; first = end) {
     for (end = first + 1; end < held && have_same_rows(pattern, unknown[first], unknown[end]);) ++end;
     int highest = first, lowest = first > 0 ? below[first - 1] : 0;
-    for (int k = pattern.outerIndexPtr()[unknown[first]]; k < pattern.outerIndexPtr()[unknown[first] + 1]; ++k) {
+    for (int k = pattern.outerIndexPtr()[unknown[first]]; k < pattern.outerIndexPtr()[unknown[first] + 1];
+         ++k) {
       const int row = place[pattern.innerIndexPtr()[k]];
       if (row < 0) continue;
       ends[row] = std::max(ends[row], end);

@@ -226,7 +226,8 @@ Balance balance_accelerations(const SecondOrderSystem& system, double h, const s
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   const State still = unloaded(system, state);
   Eigen::VectorXd dynamics(n), constraints(m);
-  const Eigen::VectorXd open = -system.constraint_curvature(state) - system.constraint_product(state, state.a);
+  const Eigen::VectorXd open =
+      -system.constraint_curvature(state) - system.constraint_product(state, state.a);
   if (!around.empty())
     for (const int reach : {short_reach_of_accelerations, reach_of_accelerations(system)}) {
       NearKkt near(system, around, reach);

@@ -62,11 +62,13 @@ std::optional<SquaredFrequencies> lowest_frequencies(const Matrix& kkt, const Ma
   return std::nullopt;
 }
 
-bool is_rigid(const SquaredFrequencies& found, Eigen::Index i, const Matrix& K) {
+double round_off(const SquaredFrequencies& found, Eigen::Index i, const Matrix& K) {
   const Vector size = found.shapes.col(i).cwiseAbs();
-  const double round_off =
-      100 * std::numeric_limits<double>::epsilon() * size.dot(Matrix(K.cwiseAbs()) * size);
-  return std::abs(found.values[i]) <= std::max(round_off, found.resolution);
+  return std::numeric_limits<double>::epsilon() * size.dot(Matrix(K.cwiseAbs()) * size);
+}
+
+bool is_rigid(const SquaredFrequencies& found, Eigen::Index i, double round_off) {
+  return std::abs(found.values[i]) <= std::max(2 * round_off, found.resolution);
 }
 
 }  // namespace nurbeam

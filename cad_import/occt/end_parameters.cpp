@@ -67,7 +67,8 @@ void correct_ends(const TopoDS_Edge& edge, const Geom_BSplineCurve& curve, doubl
     const double other = closest_parameter(curve, wanted);
     return curve.Value(other).Distance(wanted) <= closer * off ? other : parameter;
   };
-  const double begin = corrected(TopExp::FirstVertex(edge), first), end = corrected(TopExp::LastVertex(edge), last);
+  const double begin = corrected(TopExp::FirstVertex(edge), first),
+               end = corrected(TopExp::LastVertex(edge), last);
   if (!(begin < end)) return;
   first = begin;
   last = end;

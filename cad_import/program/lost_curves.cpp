@@ -23,6 +23,7 @@
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_GeometricSet.hxx>
 #include <StepShape_PolyLoop.hxx>
+#include <StepShape_ShapeRepresentation.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_Binder.hxx>
@@ -117,11 +118,11 @@ bool failed_to_translate(const Entity& entity, const XSControl_Reader& reader) {
   return !result.IsNull() && result->Check()->HasFailed();
 }
 
-// Whether a set or a representation holds it by itself.
+// Whether a set or the representation of a shape holds it by itself.
 bool is_held(const Entity& entity, const Interface_Graph& graph) {
   for (Interface_EntityIterator next = graph.Sharings(entity); next.More(); next.Next())
     if (next.Value()->IsKind(STANDARD_TYPE(StepShape_GeometricSet)) ||
-        next.Value()->IsKind(STANDARD_TYPE(StepRepr_Representation)))
+        next.Value()->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation)))
       return true;
   return false;
 }
@@ -150,8 +151,8 @@ std::vector<Entity> lost_curves(const XSControl_Reader& reader, const RestatedCu
   }
   EntitySet below;
   add_references(lost, false, graph, below);
-  std::erase_if(
-      lost, [&](const Entity& entity) { return below.contains(entity.get()) && !stands_alone(entity); });
+  std::erase_if(lost,
+                [&](const Entity& entity) { return below.contains(entity.get()) && !stands_alone(entity); });
   return lost;
 }
 
@@ -221,7 +222,8 @@ Appearance appearance_of(const Entity& entity, const XSControl_Reader& reader) {
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (const auto shown = appearances.find(open[i].get()); shown != appearances.end()) return shown->second;
     for (Interface_EntityIterator next = reader.WS()->Graph().Sharings(open[i]); next.More(); next.Next())
-      if (!next.Value()->IsKind(STANDARD_TYPE(StepRepr_Representation)) && seen.insert(next.Value().get()).second)
+      if (!next.Value()->IsKind(STANDARD_TYPE(StepRepr_Representation)) &&
+          seen.insert(next.Value().get()).second)
         open.push_back(next.Value());
   }
   return {};

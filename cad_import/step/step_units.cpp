@@ -2,8 +2,8 @@
 
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_ConversionBasedUnit.hxx>
-#include <StepBasic_MeasureWithUnit.hxx>
 #include <StepBasic_HArray1OfNamedUnit.hxx>
+#include <StepBasic_MeasureWithUnit.hxx>
 #include <StepBasic_NamedUnit.hxx>
 #include <StepBasic_SiUnitAndPlaneAngleUnit.hxx>
 #include <StepBasic_Unit.hxx>

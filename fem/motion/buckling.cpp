@@ -130,7 +130,8 @@ bool moves_rigidly(const MeshedState& at, const Matrix& kkt, const std::function
   const int n = at.system->coordinate_count();
   const auto found =
       lowest_frequencies(kkt, tangent_matrix(*at.system, at.state, {.mass = 1}), n, 1, between);
-  return found && found->values.size() > 0 && is_rigid(*found, 0, kkt.topLeftCorner(n, n));
+  return found && found->values.size() > 0 &&
+         is_rigid(*found, 0, round_off(*found, 0, kkt.topLeftCorner(n, n)));
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::
     Mode mode;
     mode.shape = found->shapes.col(i);
     const double square = found->values[i];
-    const bool rigid = is_rigid(*found, i, K);
+    mode.round_off = round_off(*found, i, K);
+    const bool rigid = is_rigid(*found, i, mode.round_off);
     if (!rigid && square < 0) return failure_of(Failure::Kind::unstable_state, std::sqrt(-square));
     mode.omega = rigid ? 0 : std::sqrt(square);
     for (int axis = 0; axis < 3; ++axis)

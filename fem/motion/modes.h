@@ -25,6 +25,7 @@ struct ModesOptions {
 
 struct Mode {
   double omega = 0;       ///< of a vibration [rad/s]; 0 where it is a rigid motion
+  double round_off = 0;   ///< of omega^2 [1/s^2]
   double factor = 0;      ///< on the loads, where the model buckles; below 0 for reversed loads
   Eigen::VectorXd shape;  ///< of the coordinates; of a vibration with x'M x = 1 kg m^2 or kg
   /// x'M e of a vibration, e the unit translation along each axis [sqrt(kg)]; its square is the effective

@@ -33,8 +33,8 @@ struct Assembly<D>::Near {
   const std::vector<bool>& near;
   std::vector<int> before;  // how many coordinates are near before each
 
-  Near(const Assembly& of, const std::vector<bool>& near)
-      : of(of), near(near), before(static_cast<std::size_t>(of.mesh_.coordinate_count) + 1, 0) {
+  Near(const Assembly& assembly, const std::vector<bool>& unknowns)
+      : of(assembly), near(unknowns), before(static_cast<std::size_t>(of.mesh_.coordinate_count) + 1, 0) {
     for (int dof = 0; dof < of.mesh_.coordinate_count; ++dof) before[dof + 1] = before[dof] + near[dof];
   }
 

@@ -76,9 +76,9 @@ double span_twist(const BeamSystem& system, const State& state, int span);
 /// What the element in a span contributes to the estimated error of positions [m]: its length times its
 /// quartic strain times quartic_strain_to_error. Measured, with the mean over the elements: cantilevers under
 /// loads of 1 and 10 EI/L^2, a beam rolled up to a circle and a cable of twice its span have errors of 1.1 to
-/// 2.4 times the quartic strain times the length, on meshes of 5 to 40 elements. Where the drawing's parameter is
-/// uneven, also the length of the beam times the angle by which the element turns too little: its curvature
-/// times its length times the part of the bending energy that its shapes do not reach.
+/// 2.4 times the quartic strain times the length, on meshes of 5 to 40 elements. Where the drawing's
+/// parameter is uneven, also the length of the beam times the angle by which the element turns too little:
+/// its curvature times its length times the part of the bending energy that its shapes do not reach.
 double position_error(const BeamSystem& system, const State& state, int span);
 inline constexpr double quartic_strain_to_error = 2.5;
 

@@ -34,7 +34,8 @@ bool all_dofs(Dofs now, Dofs old, const Is& is) {
 
 // Each where it was, or behind by so many.
 bool are_shifted(Dofs now, Dofs old, int by) {
-  return all_dofs(now, old, [by](int a, int b) { return (a == b) | (a == b + by); });
+  return all_dofs(
+      now, old, [by](int a, int b) { return (a == b) | (a == b + by); });
 }
 
 }  // namespace

@@ -31,8 +31,9 @@ std::string reason_of(StaticStatus status) {
     case StaticStatus::unstable:
       return "only unstable ones, which the model leaves when it is touched";
     case StaticStatus::lost_in_round_off:
-      return "the loads are lost in the round-off of forces along a slender beam (a section of a hundredth of the "
-             "\"area\" and the same \"second_moment\" bends alike)";
+      return "the loads are lost in the round-off of forces along a beam: a slender one (a section of a hundredth of "
+             "the \"area\" and the same \"second_moment\" bends alike), or one of very many short elements (take "
+             "fewer)";
     case StaticStatus::not_converged:
     case StaticStatus::converged:
       break;

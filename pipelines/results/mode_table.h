@@ -12,6 +12,8 @@ struct ModeRow {
   double factor = 0;  ///< on the loads that are not gravity; below 0 for reversed loads
   Eigen::Vector3d participation = Eigen::Vector3d::Zero();  ///< [sqrt(kg)]
 
+  double round_off = 0;  ///< of omega^2 [1/s^2]
+
   double frequency() const;                                                     ///< [Hz]
   Eigen::Vector3d effective_mass() const { return participation.cwiseAbs2(); }  ///< [kg]
 };

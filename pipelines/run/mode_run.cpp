@@ -1,5 +1,6 @@
 #include "pipelines/run/mode_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -7,6 +8,7 @@
 
 #include "fem/motion/mode_shape.h"
 #include "fem/motion/modes.h"
+#include "nurbs/number_text.h"
 #include "pipelines/run/simulation_plan.h"
 
 namespace nurbeam {
@@ -66,11 +68,45 @@ SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
       shapes.shape(shape);
       if (c.output.paraview)
         shapes.turn("mode_" + std::to_string(i + 1), oscillation(found.at, mode, probes));
-      table.rows.push_back({mode.omega, mode.factor, built.frame.direction_to_world(mode.participation)});
+      table.rows.push_back(
+          {mode.omega, mode.factor, built.frame.direction_to_world(mode.participation), mode.round_off});
     }
   }
   report.motion_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
+}
+
+std::optional<Diagnostic> round_off_warning(const std::filesystem::path& file, const BeamModel& model,
+                                            const ModeTable& table) {
+  constexpr double slight = 0.01, lowest = 1e-3;  // of omega^2; of the first omega that is not 0
+  constexpr int rough = 3;                        // digits
+  constexpr const char* cure = "; fewer elements have more digits";
+  const auto warning = [&](const std::string& message) {
+    return Diagnostic{Severity::warning, file.string() + ": analysis.modes", message + cure};
+  };
+  const auto vibration =
+      std::find_if(table.rows.begin(), table.rows.end(), [](const ModeRow& row) { return row.omega > 0; });
+  const bool is_attached = !model.constraints.empty() || !model.connectors.empty();
+  const auto name = [&](const ModeRow& row) {
+    return "mode " + std::to_string(&row - table.rows.data() + 1);
+  };
+  for (const ModeRow& row : table.rows) {
+    const double resolved = std::sqrt(2 * row.round_off);
+    // Whatever is free has rigid motions.
+    if (row.omega == 0 && is_attached && vibration != table.rows.end() &&
+        resolved > lowest * vibration->omega)
+      return warning(name(row) + " need not be a rigid motion: a frequency below " +
+                     text_of(resolved / (2 * std::numbers::pi), rough) +
+                     " Hz cannot be told from 0 for round-off in the stiffness of so short elements");
+  }
+  for (const ModeRow& row : table.rows) {
+    const double square = row.omega * row.omega;
+    if (row.omega > 0 && row.round_off > slight * square)
+      return warning("the frequency of " + name(row) + " is about " +
+                     text_of(100 * row.round_off / (2 * square), rough) +
+                     " % uncertain: round-off in the stiffness of so short elements");
+  }
+  return std::nullopt;
 }
 
 }  // namespace nurbeam

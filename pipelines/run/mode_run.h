@@ -1,5 +1,7 @@
 #pragma once
+#include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "fem/motion/simulation_report.h"
 #include "pipelines/model/build_model.h"
@@ -22,5 +24,9 @@ struct ModeShapes {
 SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
                            const std::function<bool()>& interrupted, const ModeShapes& shapes,
                            ModeTable& table);
+
+/// That a frequency has lost digits to round-off, or may be no 0.
+std::optional<Diagnostic> round_off_warning(const std::filesystem::path& file, const BeamModel& model,
+                                            const ModeTable& table);
 
 }  // namespace nurbeam

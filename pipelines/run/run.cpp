@@ -152,6 +152,11 @@ class Run {
     write_mode_table(options_.out / "modes.csv", table);
     for (std::size_t i = 0; i < table.rows.size(); ++i)
       options_.quiet ? void(*log_ << mode_text(table, i) << std::endl) : tell(mode_text(table, i));
+    if (const auto warning = round_off_warning(case_.path, built_.model, table)) {
+      print_diagnostics(messages_, {*warning});
+      print_diagnostics(*log_, {*warning});
+      summary_.diagnostics.push_back(*warning);
+    }
     summary_.modes = std::move(table);
     return report;
   }

@@ -164,7 +164,8 @@ TEST(ExportIntoStep, TwoBeamsOnTwoPlacesOfAPartAreBothInTheFile) {
   const auto warnings = export_into_step(source, target, wanted);
   ASSERT_EQ(warnings.size(), 2u);
   for (const auto& warning : warnings)
-    EXPECT_NE(warning.message.find("other beams deform the same curve"), std::string::npos) << warning.message;
+    EXPECT_NE(warning.message.find("other beams deform the same curve"), std::string::npos)
+        << warning.message;
   const ImportReport after = import_curves(target);
   ASSERT_EQ(after.curves.size(), 4u);
   for (const DeformedCurve& each : wanted)
@@ -200,7 +201,8 @@ TEST(ExportIntoStep, WhatIsMadeOfTheCurveStaysAndTheCurveIsAddedBesideIt) {
     const auto warnings =
         export_into_step(source, target, {{before.curves[0].curve, bent(0.3, true), "line"}});
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].message.find("is made of the same curve"), std::string::npos) << warnings[0].message;
+    EXPECT_NE(warnings[0].message.find("is made of the same curve"), std::string::npos)
+        << warnings[0].message;
     const ImportReport after = import_curves(target);
     ASSERT_EQ(after.curves.size(), before.curves.size() + 1);
     for (std::size_t i = 0; i < before.curves.size(); ++i)

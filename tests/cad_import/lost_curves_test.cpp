@@ -108,9 +108,9 @@ TEST(LostCurves, AnEdgeOfAWireRunsFromItsFirstVertexToItsLast) {
   }
 }
 
-TEST(LostCurves, AnEdgeOfAWireIsInTheUnitOfTheFileAndHasItsColour) {
+TEST(LostCurves, AnEdgeOfAWireIsInTheUnitOfTheFileAndOnItsLayer) {
   const std::string line = points("200", {{0, 0, 0}, {3, 0, 0}});
-  const std::string layer = "#140 = PRESENTATION_LAYER_ASSIGNMENT('wires','',(#129));\n";
+  const std::string layer = "#140 = PRESENTATION_LAYER_ASSIGNMENT('wires','',(#125));\n";
   const ImportReport wire =
       import_beside_a_circle(line + wireframe_of_a_side("#200", "#201", ".T.") + layer, "", inches);
   ASSERT_NE(named(wire, "side"), nullptr);
@@ -120,8 +120,8 @@ TEST(LostCurves, AnEdgeOfAWireIsInTheUnitOfTheFileAndHasItsColour) {
 
 TEST(LostCurves, AHyperbolaBoundsAWireToo) {
   // x = 3 cosh u, y = 2 sinh u from u = -1 to 3.
-  const std::string ends =
-      points("200", {{3 * std::cosh(1.0), -2 * std::sinh(1.0), 0}, {3 * std::cosh(3.0), 2 * std::sinh(3.0), 0}});
+  const std::string ends = points(
+      "200", {{3 * std::cosh(1.0), -2 * std::sinh(1.0), 0}, {3 * std::cosh(3.0), 2 * std::sinh(3.0), 0}});
   std::string wire = wireframe_of_a_side("#200", "#201", ".T.");
   const std::string on_line = "#124 = LINE('',#200,#123)";
   wire.replace(wire.find(on_line), on_line.size(), "#124 = HYPERBOLA('',#11,3.,2.)");
@@ -131,7 +131,8 @@ TEST(LostCurves, AHyperbolaBoundsAWireToo) {
   EXPECT_NEAR(start_of(side).y(), -2e-3 * std::sinh(1.0), 1e-9);
   EXPECT_NEAR(end_of(side).y(), 2e-3 * std::sinh(3.0), 1e-9);
   for (double u = 0; u <= 1; u += 0.125) {
-    const Eigen::Vector3d at = side.point(side.knots().start() + u * (side.knots().end() - side.knots().start()));
+    const Eigen::Vector3d at =
+        side.point(side.knots().start() + u * (side.knots().end() - side.knots().start()));
     EXPECT_NEAR(std::pow(at.x() / 3e-3, 2) - std::pow(at.y() / 2e-3, 2), 1, 1e-11);
   }
 }

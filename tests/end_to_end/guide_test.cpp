@@ -54,6 +54,23 @@ TEST(GuideRun, ABodyOnAStraightGuideFallsAsOnAnInclinedPlane) {
   EXPECT_NEAR(run.last("rail.length [m]"), 20, 1e-12);
 }
 
+TEST(GuideRun, ForcesUnderErrorControlAreThoseOfThePlaceAndTheSpeed) {
+  // m (v^2 / R - g z / R) towards the centre of the arc, in every row, whatever the steps between them are.
+  for (const char* integrator : {"generalized-alpha", "radau"}) {
+    const CaseRun run = run_guide(
+        on_guide(quarter_arc, R"("at": {"fraction": 0.05})",
+                 R"({"end_time": 0.95, "integrator": {"type": ")" + std::string(integrator) + R"("}})"),
+        {"output.every=0.05"});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    for (std::size_t i = 0; i < run.rows.size(); ++i) {
+      const double speed = run.value(i, "bead.speed [m/s]"), z = run.value(i, "bead.z [m]");
+      const double force =
+          std::hypot(run.value(i, "bead.joint_force.x [N]"), run.value(i, "bead.joint_force.z [N]"));
+      EXPECT_NEAR(force, std::abs(5 * (speed * speed - g * z) / 3), 0.15) << integrator << ", row " << i;
+    }
+  }
+}
+
 TEST(GuideRun, ABodyOnACircleIsThePendulum) {
   // A quarter of the arc takes K(1/sqrt 2) sqrt(R/g); at its end v^2 = 2gR and the force is 3mg.
   const double quarter = std::comp_ellint_1(std::numbers::sqrt2 / 2) * std::sqrt(3 / g);

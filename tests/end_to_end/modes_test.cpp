@@ -56,6 +56,37 @@ std::vector<double> numbers_of(const Left& left, const char* list, const char* k
   return numbers;
 }
 
+/// A bar of steel, 2 m long and 100 mm thick, on two springs across it and one along it.
+std::string bar_on_springs(int elements) {
+  std::string springs;
+  for (const auto& [at, from] :
+       {std::pair{"start", "[0, 0, -1]"}, {"end", "[2, 0, -1]"}, {"start", "[-1, 0, 0]"}})
+    springs += (springs.empty() ? R"({"name": "s)" : R"(,{"name": "s)") + std::to_string(springs.size()) +
+               R"(", "from": {"point": )" + from + R"(}, "to": {"beam": "bar", "at": ")" + at +
+               R"("}, "type": "spring", "stiffness": 100})";
+  return R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+  "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.05 },
+              "material": { "density": 7850, "youngs_modulus": "210 GPa" }, "elements": { "count": )" +
+         std::to_string(elements) + R"( } }],
+  "connectors": [)" +
+         springs + R"(],
+  "analysis": { "type": "modes", "modes": { "count": 4, "about": "drawn" } } })";
+}
+
+TEST(Modes, ThatAreLostInRoundOffAreTold) {
+  Left few, many, most;
+  run_modes_text(bar_on_springs(20), few);
+  const std::vector<double> right = numbers_of(few, "modes", "frequency [Hz]");
+  ASSERT_GE(right.size(), 3u);
+  EXPECT_GT(right[0], 0.1);
+  EXPECT_EQ(few.messages.find("round-off"), std::string::npos) << few.messages;
+  run_modes_text(bar_on_springs(200), many);
+  const std::vector<double> still = numbers_of(many, "modes", "frequency [Hz]");
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(still.at(i), right[i], 0.02 * right[i]) << i;
+  run_modes_text(bar_on_springs(2000), most);
+  EXPECT_NE(most.messages.find("need not be a rigid motion"), std::string::npos) << most.messages;
+}
+
 TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
   Left left;
   run_modes_text(cantilever_case(R"({ "type": "modes", "modes": { "count": 5 } })"), left);

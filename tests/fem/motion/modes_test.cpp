@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <memory>
 #include <random>
 
@@ -12,6 +13,7 @@
 #include "solver/static_equilibrium.h"
 #include "solver/tangent_matrix.h"
 #include "tests/fem/torsion_models.h"
+#include "tests/support/models.h"
 
 namespace nurbeam {
 namespace {
@@ -58,6 +60,31 @@ TEST(Modes, AreThoseOfTheDenseProblemAboutAnEquilibriumWithCorners) {
   const Eigen::VectorXd exact = dense_squares(*found.at.system, found.at.state);
   for (int i = 0; i < 4; ++i)
     EXPECT_NEAR(found.modes[i].omega, std::sqrt(exact[i]), 1e-7 * std::sqrt(exact[i])) << i;
+}
+
+TEST(Modes, OfManyElementsAreTheirsWithWhatRoundOffLeaves) {
+  // A steel rod of 1 m and 20 mm; omega = 1.8751^2 sqrt(EI / rho A).
+  const BeamModel held = testing::one_beam({line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
+                                           testing::round_bar(0.01, 7850, 2e11), 2000, {{0, true}});
+  const double exact = std::pow(1.8751040687119611, 2) * std::sqrt(2e11 * 2.5e-5 / 7850);
+  const ModesReport found = modes_of(held, {.count = 1, .about_equilibrium = false});
+  ASSERT_FALSE(found.rest.failure);
+  const Mode& first = found.modes.at(0);
+  EXPECT_GT(first.omega, 0);
+  EXPECT_LT(std::abs(first.omega * first.omega - exact * exact), first.round_off);
+  EXPECT_GT(first.round_off, 1e-3 * exact * exact);
+}
+
+TEST(Modes, RigidMotionsOfAFreeRodOfManyElementsAreZero) {
+  for (const int elements : {20, 400, 1500}) {
+    const ModesReport found = modes_of(testing::one_beam({line_cubic({0, 0, 0}, {1, 0, 0})}, 2,
+                                                         testing::round_bar(0.05, 7850, 2e11), elements, {}),
+                                       {.count = 5, .about_equilibrium = false});
+    ASSERT_FALSE(found.rest.failure);
+    int rigid = 0;
+    for (const Mode& mode : found.modes) rigid += mode.omega == 0;
+    EXPECT_EQ(rigid, 3) << elements;
+  }
 }
 
 TEST(Modes, ShapesHoldTheConstraintsAndHaveUnitMass) {
