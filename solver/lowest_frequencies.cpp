@@ -67,8 +67,19 @@ double round_off(const SquaredFrequencies& found, Eigen::Index i, const Matrix& 
   return std::numeric_limits<double>::epsilon() * size.dot(Matrix(K.cwiseAbs()) * size);
 }
 
-bool is_rigid(const SquaredFrequencies& found, Eigen::Index i, double round_off) {
-  return std::abs(found.values[i]) <= std::max(2 * round_off, found.resolution);
+std::vector<bool> rigid_motions(const SquaredFrequencies& found, const std::vector<double>& round_off) {
+  constexpr double may_be = 100, is = 2;
+  const auto count = static_cast<Eigen::Index>(round_off.size());
+  // Shapes of one frequency mix, and with them what each leaves.
+  double largest = 0;
+  std::vector<bool> rigid;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    rigid.push_back(std::abs(found.values[i]) <= std::max(may_be * round_off[i], found.resolution));
+    if (rigid.back()) largest = std::max(largest, round_off[i]);
+  }
+  for (Eigen::Index i = 0; i < count; ++i)
+    rigid[i] = rigid[i] && std::abs(found.values[i]) <= std::max(is * largest, found.resolution);
+  return rigid;
 }
 
 }  // namespace nurbeam

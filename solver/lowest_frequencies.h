@@ -2,6 +2,7 @@
 #include <Eigen/SparseCore>
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace nurbeam {
 
@@ -23,7 +24,7 @@ std::optional<SquaredFrequencies> lowest_frequencies(const Eigen::SparseMatrix<d
 /// off, of bars and arcs of 5 to 1500 elements [1/s^2].
 double round_off(const SquaredFrequencies& found, Eigen::Index i,
                  const Eigen::SparseMatrix<double>& stiffness);
-/// Whether it cannot be told from 0, for that or by the way in which it was found.
-bool is_rigid(const SquaredFrequencies& found, Eigen::Index i, double round_off);
+/// Which of them cannot be told from 0, for these round-offs or by the way in which they were found.
+std::vector<bool> rigid_motions(const SquaredFrequencies& found, const std::vector<double>& round_off);
 
 }  // namespace nurbeam

@@ -128,10 +128,16 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
 // Whether it can move without strain.
 bool moves_rigidly(const MeshedState& at, const Matrix& kkt, const std::function<void()>& between) {
   const int n = at.system->coordinate_count();
+  constexpr int most_rigid = 6;
   const auto found =
-      lowest_frequencies(kkt, tangent_matrix(*at.system, at.state, {.mass = 1}), n, 1, between);
-  return found && found->values.size() > 0 &&
-         is_rigid(*found, 0, round_off(*found, 0, kkt.topLeftCorner(n, n)));
+      lowest_frequencies(kkt, tangent_matrix(*at.system, at.state, {.mass = 1}), n,
+                         std::min(most_rigid, std::max(0, n - at.system->constraint_count())), between);
+  if (!found) return false;
+  const Matrix K = kkt.topLeftCorner(n, n);
+  std::vector<double> round_offs;
+  for (Eigen::Index i = 0; i < found->values.size(); ++i) round_offs.push_back(round_off(*found, i, K));
+  const std::vector<bool> rigid = rigid_motions(*found, round_offs);
+  return std::find(rigid.begin(), rigid.end(), true) != rigid.end();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "fem/motion/buckling.h"
 #include "fem/motion/free_lengths.h"
@@ -74,12 +75,15 @@ std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::
   const int most = std::max(0, n - system.constraint_count());
   const auto found = lowest_frequencies(kkt, mass_kkt, n, std::min(count, most), between);
   if (!found) return failure_of(Failure::Kind::eigenvalues);
+  std::vector<double> round_offs;
+  for (Eigen::Index i = 0; i < found->values.size(); ++i) round_offs.push_back(round_off(*found, i, K));
+  const std::vector<bool> are_rigid = rigid_motions(*found, round_offs);
   for (Eigen::Index i = 0; i < found->values.size(); ++i) {
     Mode mode;
     mode.shape = found->shapes.col(i);
     const double square = found->values[i];
-    mode.round_off = round_off(*found, i, K);
-    const bool rigid = is_rigid(*found, i, mode.round_off);
+    mode.round_off = round_offs[i];
+    const bool rigid = are_rigid[i];
     if (!rigid && square < 0) return failure_of(Failure::Kind::unstable_state, std::sqrt(-square));
     mode.omega = rigid ? 0 : std::sqrt(square);
     for (int axis = 0; axis < 3; ++axis)
