@@ -128,14 +128,18 @@ TEST(ExportIntoStep, APlacedPartGetsTheCurveInItsOwnFrame) {
   EXPECT_EQ(difference(after.curves[1].curve, before.curves[1].curve), 0);
 }
 
-TEST(ExportIntoStep, APartAtTwoPlacesChangesAtBothWithAWarning) {
-  const ScratchDirectory scratch;
-  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+void write_arch_at_two_places(const fs::path& file) {
   const BRep_Builder builder;
   TopoDS_Compound part;
   builder.MakeCompound(part);
   builder.Add(part, arch(50));
-  write_assembly(source, assembly(part, 2));
+  write_assembly(file, assembly(part, 2));
+}
+
+TEST(ExportIntoStep, APartAtTwoPlacesChangesAtBothWithAWarning) {
+  const ScratchDirectory scratch;
+  const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
+  write_arch_at_two_places(source);
   const ImportReport before = import_curves(source);
   ASSERT_EQ(before.curves.size(), 2u);
   const NurbsCurve deformed = stretched(before.curves[1].curve);
@@ -151,11 +155,7 @@ TEST(ExportIntoStep, APartAtTwoPlacesChangesAtBothWithAWarning) {
 TEST(ExportIntoStep, TwoBeamsOnTwoPlacesOfAPartAreBothInTheFile) {
   const ScratchDirectory scratch;
   const fs::path source = scratch.path() / "source.step", target = scratch.path() / "target.step";
-  const BRep_Builder builder;
-  TopoDS_Compound part;
-  builder.MakeCompound(part);
-  builder.Add(part, arch(50));
-  write_assembly(source, assembly(part, 2));
+  write_arch_at_two_places(source);
   const ImportReport before = import_curves(source);
   ASSERT_EQ(before.curves.size(), 2u);
   std::vector<DeformedCurve> wanted;
