@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "cad_import/iges/conic_position.h"
-#include "cad_import/iges/data_points.h"
+#include "cad_import/iges/copious_data.h"
 #include "cad_import/iges/line_forms.h"
 #include "cad_import/iges/location.h"
 #include "cad_import/iges/offset_curve.h"
@@ -93,6 +93,29 @@ void note_data_points(const IGESData_IGESModel& model, Remarks& remarks) {
                    " entities (106) in all: where a path is meant, write form 11 to 13");
 }
 
+void note_drawing_lines(const IGESData_IGESModel& model, Remarks& remarks) {
+  const std::vector<Handle(IGESData_IGESEntity)> lines = drawing_lines(model);
+  if (lines.empty()) return;
+  remarks.note(lines[0],
+               "its form, 20 to 40, is that of centre, section and witness lines of a drawing, and it is not "
+               "read; so are " +
+                   std::to_string(lines.size()) +
+                   " entities (106) in all: where the shape is meant, write lines (110), or form 11 to 13");
+}
+
+/// What stands in other files is not looked for.
+void warn_of_external_references(const IGESData_IGESModel& model, Remarks& remarks) {
+  constexpr int external_reference = 416;
+  std::vector<Entity> references;
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (model.Entity(i)->TypeNumber() == external_reference) references.push_back(model.Entity(i));
+  if (references.empty()) return;
+  remarks.warn(references[0],
+               "refers to what stands in another file, which is not read; so do " +
+                   std::to_string(references.size()) +
+                   " entities (416) in all: import that file, or write what it has into this one");
+}
+
 }  // namespace
 
 std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks& remarks) {
@@ -112,6 +135,8 @@ std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks
       remarks.attempt(conic, [&] { put_into_position(*conic); });
   }
   note_data_points(model, remarks);
+  note_drawing_lines(model, remarks);
+  warn_of_external_references(model, remarks);
   return restate_instances(model, unit, remarks);
 }
 

@@ -11,6 +11,8 @@ struct Diagnostic {
   Severity severity;
   std::string where;    ///< file, entity or JSON path
   std::string message;  ///< what was found, the rule, and the nearest valid alternative
+
+  bool operator==(const Diagnostic&) const = default;
 };
 
 bool has_errors(const std::vector<Diagnostic>& diagnostics);

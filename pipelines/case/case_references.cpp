@@ -209,9 +209,16 @@ void check_effects(const Json& json, const CaseFile& c, Findings& findings) {
   if (has(json, "air") &&
       std::none_of(c.bodies.begin(), c.bodies.end(), [](const CaseBody& body) { return body.drag_area > 0; }))
     findings.warn("air", "has no effect: it drags bodies by their \"drag_area\" alone, and none has one");
-  if (has(part(json, "output"), "cad") && !c.output.cad_at_all_times && c.output.cad_times.empty())
+  const Json& cad = part(part(json, "output"), "cad");
+  if (cad.is_object() && part(cad, "times").is_array() && cad["times"].empty())
     findings.warn("output.cad.times",
                   "is empty: no CAD file is written; leave it out for one of the last state, or say \"all\"");
+  const auto is_step = [](const std::string& format) {
+    return format.starts_with("step") && format != "step-source";
+  };
+  if (cad.is_object() && cad.contains("schema") && std::ranges::none_of(c.output.cad_formats, is_step))
+    findings.warn("output.cad.schema",
+                  "has no effect: it is of new STEP files, and \"formats\" has none of these");
   for (const CaseSupport& support : c.supports) {
     const auto is_along = [&](const DisplacementTable::Row& row) {
       constexpr double round_off = 1e-12;

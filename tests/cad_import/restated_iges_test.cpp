@@ -329,6 +329,39 @@ TEST(RestatedIges, PointsThatNothingConnectsAreNoted) {
   EXPECT_NE(notes[0].message.find("points that nothing connects"), std::string::npos) << notes[0].message;
 }
 
+// IGES 5.3, 4.7: forms 20 to 40 are lines of a drawing, form 63 is a shape.
+TEST(RestatedIges, LinesOfADrawingAreNotedAsNotRead) {
+  const auto read = [](int form, int status) {
+    return import_text(iges_text_of({{.type = 110, .parameters = "110,0.,0.,0.,100.,0.,0.;"},
+                                     {.type = 106,
+                                      .parameters = "106,1,4,0.,0.,0.,10.,0.,10.,5.,0.,0.;",
+                                      .form = form,
+                                      .status = status}}));
+  };
+  for (const int form : {20, 21, 31, 38, 40}) {
+    const ImportReport report = read(form, 0);
+    EXPECT_EQ(report.curves.size(), 1U) << form;
+    ASSERT_EQ(report.diagnostics.size(), 1U) << form;
+    EXPECT_EQ(report.diagnostics[0].severity, Severity::note);
+    EXPECT_NE(report.diagnostics[0].message.find("1 entities (106)"), std::string::npos);
+    EXPECT_TRUE(read(form, dependent).diagnostics.empty()) << "of a dimension";
+  }
+  EXPECT_EQ(read(63, 0).curves.size(), 2U);
+  EXPECT_TRUE(read(63, 0).diagnostics.empty());
+}
+
+TEST(RestatedIges, ReferencesToOtherFilesAreNamed) {
+  const ImportReport report =
+      import_text(iges_text_of({{.type = 110, .parameters = "110,0.,0.,0.,100.,0.,0.;"},
+                                {.type = 416, .parameters = "416,9Hother.igs,4Hpart;"},
+                                {.type = 416, .parameters = "416,9Hother.igs;", .form = 1}}));
+  EXPECT_EQ(report.curves.size(), 1U);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].message.find("2 entities (416)"), std::string::npos)
+      << report.diagnostics[0].message;
+}
+
 IgesEntity offset_of(const std::string& range, int matrix = 0) {
   return {.type = 130,
           .parameters = "130,3,1,0,0,1,1.,0.,0.,0.,0.,0.,1.," + range + ";",
