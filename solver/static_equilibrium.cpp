@@ -1,6 +1,7 @@
 #include "solver/static_equilibrium.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -211,10 +212,10 @@ class EquilibriumSearch {
     const bool is_loaded = sizes_.applied_force(trial) > 0;
     if (quality.acceptable && !is_loaded) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
+    if (!outcome.converged && !outcome.singular_at_start) take_bounded_step(trial);
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
-      improve(x, quality.allowed, strategy, iterations, outcome);
-      const auto found = equations_.quality(x, settings_.tolerance);
+      const auto found = improved(x, quality.allowed, strategy, iterations, outcome);
       // Where much of it is the round-off of large forces, what a small one still lacks counts.
       const bool settles = found.acceptable && !quality.acceptable;
       const bool better = settles || found.residual_norm <= outcome.residual_norm;
@@ -242,6 +243,30 @@ class EquilibriumSearch {
                                                  : StaticStatus::not_converged;
     report_.residual_norm = outcome.residual_norm;
     return outcome;
+  }
+
+  /// Newton's first step where it leads out of the model, as a straight wire's does, which is soft as long as
+  /// it is straight: as far as the forces along it lead. From there full steps know what is stiff.
+  void take_bounded_step(State& trial) {
+    const int n = equations_.coordinates();
+    const Vector x = equations_.scaled_unknowns(trial);
+    Vector rows(equations_.size());
+    if (!equations_.evaluate(x, rows)) return;
+    const Vector step = -kkt_solver_.solve(rows);
+    const double length = step.head(n).lpNorm<Eigen::Infinity>();
+    if (!step.allFinite() || !(length > largest_change)) return;
+    const auto leads_on = [&](double part) {
+      return equations_.evaluate(x + part * step, rows) && rows.head(n).dot(step.head(n)) < 0;
+    };
+    double high = largest_change / length, low = high;
+    constexpr int most_tenths = 12, most_halvings = 12;
+    for (int i = 0; i < most_tenths && !leads_on(low); ++i) low = (high = low) / 10;
+    if (low == high) return;
+    for (int i = 0; i < most_halvings; ++i) {
+      const double middle = std::sqrt(low * high);
+      (leads_on(middle) ? low : high) = middle;
+    }
+    trial = equations_.state_of(x + low * step);
   }
 
   /// Of the equilibrium whose tangent the equations have.
@@ -287,6 +312,21 @@ class EquilibriumSearch {
     trial = equations_.state_of(x);
     equations_.clear_proximity();
     return outcome;
+  }
+
+  /// Improves x as improve() does, and asks now and then whether what is left is the round-off of the forces
+  /// that have come up on the way.
+  ScaledEquations::Quality improved(Vector& x, const Vector& allowed, int strategy, int iterations,
+                                    Outcome& outcome) {
+    constexpr int some = 10;
+    ScaledEquations::Quality found{.allowed = allowed};
+    for (int left = iterations; left > 0 && !found.acceptable; left -= some) {
+      const int before = outcome.iterations;
+      improve(x, found.allowed, strategy, std::min(some, left), outcome);
+      found = equations_.quality(x, settings_.tolerance);
+      if (outcome.iterations - before < some || !std::isfinite(found.residual_norm)) break;
+    }
+    return found;
   }
 
   void improve(Vector& x, const Vector& allowed, int strategy, int max_iterations, Outcome& outcome) {

@@ -346,6 +346,26 @@ TEST(Catenary, HangsFromAStraightLineThatIsTooShortForIt) {
   }
 }
 
+TEST(Catenary, HangsFromAStraightWireOnAnyMesh) {
+  const double area = pi * 1e-4;
+  const StringLaw rope{.EA = 1e11 * area, .w = 7800 * 9.81 * area};
+  const double sag = rope.shape(hang(rope, 1000, 1000, 0).H, 0, 500).y;
+  for (const int elements : {30, 500, 2000}) {
+    std::ostringstream text;
+    text << R"({ "nurbeam": 1, "beams": [{ "name": "wire", "axis": { "polyline": [[0, 0, 0], [1000, 0, 0]] },
+        "section": { "radius": 0.01 }, "material": { "density": 7800, "youngs_modulus": 1e11 },
+        "elements": { "count": )"
+         << elements << R"( } }],
+      "supports": [{ "beam": "wire", "at": "start", "type": "pinned" },
+                   { "beam": "wire", "at": "end", "type": "pinned" }],
+      "analysis": { "type": "static" }, "output": { "report": false } })";
+    const CaseRun r = run_text(text.str());
+    ASSERT_EQ(r.code, 0) << elements << r.messages;
+    EXPECT_FALSE(r.says("warning")) << r.messages;
+    EXPECT_NEAR(r.last("wire.sag [m]"), sag, (elements < 100 ? 1e-3 : 1e-4) * sag) << elements;
+  }
+}
+
 // Stiff enough to stand, it hangs all the same.
 TEST(Catenary, HangsWhereAnArchWouldStandToo) {
   for (const char* support : {"clamped", "pinned"})
