@@ -55,6 +55,28 @@ std::vector<std::size_t> times_that_count(const StudyFile& study, const std::vec
   return times;
 }
 
+/// Half of what numbers change by from a move back to the same move on, f(-1) and f(1), where they are `here`
+/// without; linear, from as small a part of it as it takes for both to change them alike: of a long one the
+/// extreme of a history may come to lie at another time.
+Eigen::VectorXd slopes(const Eigen::VectorXd& here, const std::function<Eigen::VectorXd(double part)>& f) {
+  constexpr double least = 1e-4, alike = 1e-3, round_off = 1e-13;
+  Eigen::VectorXd slope(here.size());
+  std::vector<bool> found(static_cast<std::size_t>(here.size()), false);
+  for (double part = 1; std::find(found.begin(), found.end(), false) != found.end(); part /= 10) {
+    const Eigen::VectorXd on = f(part) - here, back = here - f(-part);
+    for (Eigen::Index i = 0; i < here.size(); ++i) {
+      if (found[static_cast<std::size_t>(i)]) continue;
+      const bool one_sided = !std::isfinite(on[i]) || !std::isfinite(back[i]);
+      const double mean = !one_sided ? (on[i] + back[i]) / 2 : std::isfinite(on[i]) ? on[i] : back[i];
+      slope[i] = mean / part;
+      found[static_cast<std::size_t>(i)] =
+          one_sided || part <= least ||
+          std::abs(on[i] - back[i]) <= alike * std::abs(mean) + round_off * std::abs(here[i]);
+    }
+  }
+  return slope;
+}
+
 // Throws std::invalid_argument where a neighbouring model is in space, or has been put into a plane that it
 // is out of by little: what a parameter does out of it is left out.
 void check_planar_alike(const BuiltModel& own, const BuiltModel& other) {
@@ -314,22 +336,32 @@ bool VariantGradient::pays_by_adjoint(std::size_t variables, const Histories& hi
          !(is_static && (contents.beams || contents.sections || contents.energy));
 }
 
+Eigen::VectorXd VariantGradient::quantities(const std::vector<double>& values, const Histories& histories,
+                                            const std::vector<RunEvent>& events) const {
+  const ExpressionScope scope = scope_of_run(study_, values, histories, model_.model, events);
+  Eigen::VectorXd all(static_cast<Eigen::Index>(study_.quantities.size()));
+  for (std::size_t i = 0; i < study_.quantities.size(); ++i)
+    all[static_cast<Eigen::Index>(i)] = study_.quantities[i].value.number(scope);
+  return all;
+}
+
 // (quantities x parameters) What states at the times that count, which change with the parameters, do to the
 // quantities, where adjoints say so.
 Eigen::MatrixXd VariantGradient::through_states(const Histories& histories,
                                                 const std::vector<RunEvent>& events) {
-  const std::size_t count = study_.quantities.size();
-  Histories changed = histories;
-  const auto quantities = [&](std::size_t time, const Snapshot& snapshot) {
+  const Eigen::VectorXd here = quantities(values_, histories, events);
+  Histories changed = histories, moved = histories;
+  const auto linear = [&](std::size_t time, const Snapshot& snapshot) {
     changed.replace(time, snapshot);
-    const ExpressionScope scope = scope_of_run(study_, values_, changed, model_.model, events);
-    Eigen::VectorXd all(static_cast<Eigen::Index>(count));
-    for (std::size_t i = 0; i < count; ++i)
-      all[static_cast<Eigen::Index>(i)] = study_.quantities[i].value.number(scope);
-    changed.replace(time, histories);
-    return all;
+    const Eigen::VectorXd change = slopes(here, [&](double part) {
+      moved.shift(time, histories, changed, part);
+      const Eigen::VectorXd there = quantities(values_, moved, events);
+      moved.replace(time, histories);
+      return there;
+    });
+    return Eigen::VectorXd(here + change);
   };
-  return sensitivities_->through_states(quantities);
+  return sensitivities_->through_states(linear);
 }
 
 StudyGradient VariantGradient::of_quantities(const Histories& histories,
@@ -348,33 +380,34 @@ StudyGradient VariantGradient::of_quantities(const Histories& histories,
       pairs_[k].less.histories.replace(time, neighbours[k].less);
     }
   }
-  StudyGradient gradient;
-  for (const StudyQuantity& quantity : study_.quantities) {
-    std::vector<double> row;
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const auto value = [&](const NeighbouringRun& run, double change) {
-        std::vector<RunEvent> moved = events;
-        for (std::size_t i = 0; i < events.size(); ++i)
-          moved[i].time += change * sensitivities_->event_times()[i][k];
-        return quantity.value.number(scope_of_run(study_, run.values, run.histories, model_.model, moved));
-      };
-      const Pair& pair = pairs_[k];
-      row.push_back((value(pair.more, pair.step) - value(pair.less, -pair.step)) / (2 * pair.step));
-    }
-    gradient.push_back(std::move(row));
+  const Eigen::VectorXd here = quantities(values_, histories, events);
+  Eigen::MatrixXd gradient(here.size(), static_cast<Eigen::Index>(pairs_.size()));
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const Pair& pair = pairs_[k];
+    const auto beside = [&](double part) {
+      std::vector<double> values = values_;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] += part * (pair.more.values[i] - pair.less.values[i]) / 2;
+      Histories moved = histories;
+      for (const std::size_t time : times)
+        moved.shift(time, pair.less.histories, pair.more.histories, part / 2);
+      std::vector<RunEvent> later = events;
+      for (std::size_t i = 0; i < events.size(); ++i)
+        later[i].time += part * pair.step * sensitivities_->event_times()[i][k];
+      return quantities(values, moved, later);
+    };
+    gradient.col(static_cast<Eigen::Index>(k)) = slopes(here, beside) / pair.step;
   }
-  if (is_by_adjoint_) {
-    const Eigen::MatrixXd through = through_states(histories, events);
-    for (std::size_t i = 0; i < gradient.size(); ++i)
-      for (std::size_t k = 0; k < pairs_.size(); ++k)
-        gradient[i][k] += through(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+  if (is_by_adjoint_) gradient += through_states(histories, events);
+  StudyGradient rows;
+  for (std::size_t i = 0; i < study_.quantities.size(); ++i) {
+    const Eigen::VectorXd row = gradient.row(static_cast<Eigen::Index>(i));
+    if (!row.allFinite())
+      throw std::invalid_argument("the quantity " + in_quotes(study_.quantities[i].name) +
+                                  " has no derivative");
+    rows.emplace_back(row.begin(), row.end());
   }
-  for (std::size_t i = 0; i < gradient.size(); ++i)
-    for (const double derivative : gradient[i])
-      if (!std::isfinite(derivative))
-        throw std::invalid_argument("the quantity " + in_quotes(study_.quantities[i].name) +
-                                    " has no derivative");
-  return gradient;
+  return rows;
 }
 
 }  // namespace nurbeam

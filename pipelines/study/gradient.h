@@ -40,6 +40,8 @@ class VariantGradient {
   struct Pair;
 
   bool pays_by_adjoint(std::size_t variables, const Histories& histories, bool is_static) const;
+  Eigen::VectorXd quantities(const std::vector<double>& values, const Histories& histories,
+                             const std::vector<RunEvent>& events) const;
   Eigen::MatrixXd through_states(const Histories& histories, const std::vector<RunEvent>& events);
 
   const StudyFile& study_;

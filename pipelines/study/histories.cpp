@@ -72,6 +72,11 @@ void Histories::begin_as(const Histories& other) {
   values_ = other.values_;
 }
 
+void Histories::shift(std::size_t time, const Histories& from, const Histories& to, double part) {
+  for (std::size_t i = 0; i < columns_->size(); ++i)
+    values_[i][time] += part * (to.values_[i][time] - from.values_[i][time]);
+}
+
 void Histories::replace(std::size_t time, const Snapshot& local) {
   const Snapshot snapshot = to_world(*frame_, local);
   for (std::size_t i = 0; i < columns_->size(); ++i) values_[i][time] = (*columns_)[i].value(snapshot);

@@ -27,6 +27,8 @@ class Histories {
 
   /// Takes the times and values of another run of the study over.
   void begin_as(const Histories& other);
+  /// Adds to the values of one time a part of what they differ by between two other runs of the study.
+  void shift(std::size_t time, const Histories& from, const Histories& to, double part);
   /// Those of one time, from a snapshot in the model's own coordinates.
   void replace(std::size_t time, const Snapshot& local);
   /// Takes those of one time over from another run of the study.

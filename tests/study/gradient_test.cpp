@@ -172,6 +172,39 @@ TEST(Gradient, AtTheEndOfWhatThereIsLooksToOneSide) {
   EXPECT_NEAR(at_end.gradient[0][0], 2 * fine - coarse, 1e-3 * std::abs(fine));
 }
 
+// A body on a level guide swings about the relaxed length of a spring: x = 2 + (v - 2) cos(w t), w^2 = k / 2.
+// Its extremes of one swing and the next are told apart by the stored times alone.
+TEST(Gradient, OfExtremesThatOtherTimesNearlyReach) {
+  const std::string swing = R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{"name": "rail", "axis": {"polyline": [[0, 0, 0], [4, 0, 0]]}, "rigid": true}],
+    "bodies": [{"name": "t", "mass": 2}],
+    "sliding_joints": [{"body": "t", "beam": "rail", "at": {"length": 3}, "speed": 0}],
+    "connectors": [{"name": "s", "from": {"point": [0, 0, 0]}, "to": {"body": "t"}, "stiffness": 50, "length": 2}],
+    "analysis": {"end_time": 6, "step": 0.002}, "output": {"every": 0.02}})json";
+  const std::string variables = R"json("variables": [
+      {"name": "v", "path": "sliding_joints[0].at.length", "range": [2.5, 3.5], "nominal": 3},
+      {"name": "k", "path": "connectors[0].stiffness", "range": [40, 60], "nominal": 50}], )json";
+  const auto gradient = [&](const std::string& quantities) {
+    StudyOfCase of(swing, variables + R"json("quantities": [)json" + quantities +
+                              R"json(], "plan": {"gradient": "nominal"}})json");
+    return of.run(of.nominal(), true).gradient;
+  };
+  const std::string speed = R"json({"name": "speed", "value": "max(t.speed)"})json",
+                    nearest = R"json({"name": "nearest", "value": "min(t.s)"})json",
+                    swings = R"json({"name": "swings", "value": "max(t.s) - min(t.s)"})json";
+  const StudyGradient by_tangents = gradient(speed + ", " + nearest + ", " + swings);
+  const std::vector<std::vector<double>> exact{{5, 0.05}, {-1, 0}, {2, 0}};
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    EXPECT_NEAR(by_tangents[i][0], exact[i][0], 2e-3) << i;
+    EXPECT_NEAR(by_tangents[i][1], exact[i][1], 0.008) << i << ": the stored times are 0.02 s apart";
+  }
+  for (const std::string& one : {speed, nearest, swings}) {
+    const StudyGradient by_adjoint = gradient(one);
+    const std::size_t i = one == speed ? 0 : one == nearest ? 1 : 2;
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(by_adjoint[0][k], by_tangents[i][k], 1e-4) << one << k;
+  }
+}
+
 // Means over all times of what is greatest along the beam, at one place or another.
 TEST(Gradient, OfExtremesAlongABeam) {
   StudyOfCase of(spline_case(8, 8, R"json({"type": "dynamic", "end_time": 0.1, "step": "2 ms"})json"),
