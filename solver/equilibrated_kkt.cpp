@@ -13,9 +13,10 @@ using Vector = Eigen::VectorXd;
 
 // By how much the factors of columns are too large: where a column of a constraint outweighs all others by so
 // much, what it has in B is nothing beside what they have, and round-off, as of the curvature of a straight
-// guide.
+// guide. Others that are round-off of the constraint's own do not count.
 Vector excess_of_columns(const Matrix& kkt, int n, const Vector& factor) {
-  constexpr double nothing = 1e-13;  // of a stiffness
+  constexpr double nothing = 1e-13;    // of a stiffness
+  constexpr double round_off = 1e-14;  // of a constraint
   struct Row {
     double first = 0, second = 0;
     int column = -1;  // of the first
@@ -33,7 +34,7 @@ Vector excess_of_columns(const Matrix& kkt, int n, const Vector& factor) {
     }
   Vector excess = Vector::Ones(n);
   for (const Row& row : rows)
-    if (row.second > 0 && row.second < std::sqrt(nothing) * row.first)
+    if (row.second > round_off * row.first && row.second < std::sqrt(nothing) * row.first)
       excess[row.column] = std::max(excess[row.column], row.first / row.second);
   return excess;
 }
