@@ -19,10 +19,8 @@ enum class EventKind {
   rests_at_stop,   ///< a body comes to rest against a hard stop
   leaves_stop      ///< one is no longer pressed to its stop
 };
-/// Whether what an event takes from the energy counts as dissipated.
-inline bool is_booked(EventKind kind) {
-  return kind == EventKind::left_beam || kind == EventKind::stopped_at_end || kind >= EventKind::sticks;
-}
+/// Whether the account of energy has what an event takes or gives.
+inline bool is_booked(EventKind kind) { return kind >= EventKind::left_beam; }
 
 /// Something that happened at one moment of a run: a change of the mesh, a body at a beam's end, ...
 struct RunEvent {

@@ -22,13 +22,18 @@ bool has_just_left(const std::vector<RunEvent>& events, const RunEvent& event) {
          events.back().time == event.time && events.back().body == event.body;
 }
 
-// Bodies with friction stick or slide as forces and velocities now are; what sticks stored is lost.
+// Bodies with friction stick or slide as forces and velocities now are; what sticks stored is lost, and comes
+// from what held it where it begins to.
 bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
   if (joints.empty()) return true;
   const double before = run.mechanical_energy();
   if (!settle_friction(run.at, joints, run.shortest_time(), at_rest))
     return run.fail(Failure::Kind::mass_matrix);
-  run.account.lose(before - run.mechanical_energy());
+  const double stored = run.mechanical_energy() - before;
+  if (stored > 0)
+    run.account.take_in(stored);
+  else
+    run.account.lose(-stored);
   return true;
 }
 

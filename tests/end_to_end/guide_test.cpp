@@ -176,6 +176,27 @@ TEST(GuideRun, WhereNothingMovesNothingIsAmiss) {
   }
 }
 
+// What holds the body stretches the spring of its friction, which is no loss.
+TEST(GuideRun, AReleasedBodyThatSticksLosesNothing) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write("sticks.json", R"({"nurbeam": 1, "beams": [{"name": "rail", "rigid": true,
+      "axis": {"polyline": [[0, 0, 0], [10, 0, -2]]}}], "bodies": [{"name": "bead", "mass": 5}],
+      "sliding_joints": [{"body": "bead", "beam": "rail", "at": {"length": 2}, "release": 1,
+        "friction": {"coefficient": 0.1, "static": 0.25, "stick_stiffness": 100}}],
+      "analysis": {"end_time": 3}})");
+  const double pull = 5 * standard_gravity * 2 / std::sqrt(104.0);
+  for (const std::vector<std::string>& with :
+       {std::vector<std::string>{}, {"analysis.step=1e-3"}, {"analysis.integrator={\"type\": \"radau\"}"}}) {
+    const CaseRun run = run_file(file, with);
+    EXPECT_EQ(run.code, 0) << run.messages;
+    EXPECT_FALSE(run.says("warning")) << run.messages;
+    EXPECT_NEAR(run.last("bead.s [m]"), 2, 1e-9);
+    EXPECT_NEAR(run.last("energy.dissipated [J]"), 0, 1e-9);
+    EXPECT_NEAR(run.last("energy.spring [J]"), pull * pull / 200, 1e-6);
+    EXPECT_NEAR(run.last("energy.input [J]"), pull * pull / 200, 1e-6);
+  }
+}
+
 TEST(GuideRun, WhatAGuideDoesNotTakeIsRefused) {
   const std::string text = on_guide(quarter_arc, R"("at": "start")", R"({"end_time": 0.1, "step": 0.01})");
   const auto says = [&](const std::string& override, const std::string& part) {
