@@ -1,5 +1,6 @@
 #include "fem/motion/energy_account.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -34,26 +35,23 @@ bool has_dampers(const BeamSystem& system) {
       });
 }
 
+bool is_moved(const Constraint& constraint) {
+  return std::visit(
+      [](const auto& c) {
+        if constexpr (
+            requires { c.motion; })
+          return c.motion.has_value();
+        return false;
+      },
+      constraint);
+}
+
 // Whether energy may come from outside.
 bool is_driven(const BeamModel& m) {
-  return !m.forces.empty() || !m.air.wind.isZero() ||
-         std::any_of(
-             m.joints.begin(), m.joints.end(), [](const auto& joint) { return joint.motion.has_value(); }) ||
+  return !m.forces.empty() || !m.air.wind.isZero() || has_prescribed_motions(m) ||
          std::any_of(
              m.beams.begin(), m.beams.end(),
-             [](const Beam& beam) { return !beam.properties.free_strain.thermal.empty(); }) ||
-         std::any_of(
-             m.constraints.begin(), m.constraints.end(),
-             [](const Constraint& constraint) {
-               return std::visit(
-                   [](const auto& c) {
-                     if constexpr (
-                         requires { c.motion; })
-                       return c.motion.has_value();
-                     return false;
-                   },
-                   constraint);
-             });
+             [](const Beam& beam) { return !beam.properties.free_strain.thermal.empty(); });
 }
 
 // Midpoint rule with the mean rates of the step: what a transient shorter than the step does not falsify. The
@@ -95,9 +93,30 @@ double lost_in_step(const BeamSystem& system, const StepPath& step, bool first) 
   return std::max(0.0, lost - unbalanced_work(system, step.before, settled));
 }
 
-double taken_in_step(const BeamSystem& system, const StepPath& step) {
-  return along(
-      step, [&](const State& from, const State& to) { return input_work(system, from, to); });
+// Integral of the polynomial through values at the states behind the start: of Radau's method by its weights.
+// The value at the start is that of the interval before, from which accelerations of motions may jump.
+template <class Rate>
+double integral(const StepPath& step, const Rate& rate) {
+  const double h = step.after.t - step.before.t;
+  const auto count = static_cast<Eigen::Index>(step.within.size()) + 1;
+  Eigen::MatrixXd powers(count, count);
+  Eigen::VectorXd rates(count), means(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const State& state = i + 1 < count ? step.within[static_cast<std::size_t>(i)] : step.after;
+    rates[i] = rate(state);
+    for (Eigen::Index k = 0; k < count; ++k)
+      powers(k, i) = std::pow((state.t - step.before.t) / h, static_cast<double>(k));
+    means[i] = 1 / static_cast<double>(i + 1);
+  }
+  return h * powers.partialPivLu().solve(means).dot(rates);
+}
+
+double taken_in_step(const BeamSystem& system, const StepPath& step, const StepPath& forces) {
+  const double by_loads =
+      along(step, [&](const State& from, const State& to) { return load_work(system, from, to); });
+  if (!has_prescribed_motions(system.model()) || !(step.after.t > step.before.t)) return by_loads;
+  if (step.within.empty()) return by_loads + motion_work(system, forces.before, forces.after);
+  return by_loads + integral(forces, [&](const State& state) { return motion_power(system, state); });
 }
 
 // What events that are not in the books have added.
@@ -110,13 +129,21 @@ double given_by_events(const std::vector<RunEvent>& events) {
 
 }  // namespace
 
+bool has_prescribed_motions(const BeamModel& model) {
+  return std::any_of(
+             model.joints.begin(), model.joints.end(),
+             [](const SlidingJoint& joint) { return joint.motion.has_value(); }) ||
+         std::any_of(model.constraints.begin(), model.constraints.end(), is_moved);
+}
+
 void EnergyAccount::begin(const BeamSystem& system, const State& state) {
   start_ = energy(system, state).mechanical() + dissipated_ - input_;
 }
 
-void EnergyAccount::add_step(const BeamSystem& system, const StepPath& step, bool first) {
+void EnergyAccount::add_step(const BeamSystem& system, const StepPath& step, bool first,
+                             const StepPath& forces) {
   if (step.after.t > step.before.t) dissipated_ += lost_in_step(system, step, first);
-  if (is_driven(system.model())) input_ += taken_in_step(system, step);
+  if (is_driven(system.model())) input_ += taken_in_step(system, step, forces);
 }
 
 bool EnergyAccount::creates_energy(const BeamSystem& system, const StepPath& step, bool first,
@@ -128,7 +155,7 @@ bool EnergyAccount::creates_energy(const BeamSystem& system, const StepPath& ste
   known_ = {step.after.t, now};
   double gained = now.mechanical() - old.mechanical();
   gained += lost_in_step(system, step, first);
-  if (is_driven(system.model())) gained -= taken_in_step(system, step);
+  if (is_driven(system.model())) gained -= taken_in_step(system, step, step);
   const double strain = old.strain(), fallen = std::abs(now.gravity - old.gravity);
   const double scale = std::max({report.peak_kinetic_energy, old.kinetic, now.kinetic, strain, fallen});
   return gained > most * scale + round_off * (scale + std::abs(old.gravity)) + report.energy_noise;

@@ -10,12 +10,15 @@
 namespace nurbeam {
 
 /// A step, with states within it in order of time where its method has some: energies that go from state to
-/// state are the more exact for them.
+/// state are the more exact for them, and forces of motions are theirs, not those of the state before.
 struct StepPath {
   const State& before;
   const State& after;
   std::span<const State> within = {};
 };
+
+/// Whether places are moved from outside.
+bool has_prescribed_motions(const BeamModel& model);
 
 /// The books of a run's energy [J]: what it has lost and what has come from outside since its start.
 class EnergyAccount {
@@ -34,8 +37,8 @@ class EnergyAccount {
   void lose(double energy) { dissipated_ += energy; }
   void take_in(double energy) { input_ += energy; }
   /// Books what a step loses and takes in; `first` after a restart, whose accelerations are not those of the
-  /// moment.
-  void add_step(const BeamSystem& system, const StepPath& step, bool first);
+  /// moment. `forces`: the step with the multipliers by which motions work.
+  void add_step(const BeamSystem& system, const StepPath& step, bool first, const StepPath& forces);
   /// Whether a step makes more energy than error control leaves: a part of the kinetic and strain energy, or
   /// of what gravity gave. Asked of one step after the other.
   bool creates_energy(const BeamSystem& system, const StepPath& step, bool first,

@@ -90,6 +90,17 @@ bool Run::fail_in_impact(int joint) {
   return goes_on(Failure{.kind = Failure::Kind::impact, .time = at.state.t, .joint = joint});
 }
 
+State Run::at_the_moment(const State& state, double length) const {
+  if (options.step || observer.follower) return state;
+  const BeamSystem& system = *at.system;
+  if ((system.constraint_curvature(state) + system.constraint_product(state, state.a)).isZero(0))
+    return state;
+  State balanced = state;
+  NearSolver solver;
+  const Balance balance = balance_accelerations(system, length, {}, solver, balanced);
+  return balance.status == ConsistencyStatus::done ? balanced : state;
+}
+
 double Run::shortest_time() const {
   if (!damps_fast_motions(options.integrator)) return 0;
   return transient > 0 ? std::min(step, transient) : step;

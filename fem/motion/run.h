@@ -55,6 +55,11 @@ struct Run {
   bool restart_balanced(const std::vector<int>& around);
   /// Writes an event down.
   void note(RunEvent event);
+  /// A state that a step of that length has ended in, with the multipliers of the moment. Steps close the
+  /// constraints' places alone: where error control changes their length the multipliers are the second
+  /// differences of what that leaves of velocities, forces of the step, a tenth of them off and more. Else,
+  /// and of what is followed, as derivatives are those of the step, the state itself.
+  State at_the_moment(const State& state, double length) const;
 
   /// What of a checkpoint is the run's: the simulation adds what it has written, and the time that took.
   Checkpoint checkpoint() const;

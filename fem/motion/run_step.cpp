@@ -201,6 +201,16 @@ std::span<const State> states_within(const Run& run, double length) {
   return led_here ? run.integrator->within() : std::span<const State>();
 }
 
+// `length_before`: of the step that led to its start.
+void book(Run& run, const StepPath& path, bool first, double length_before) {
+  const BeamSystem& system = *run.at.system;
+  if (!has_prescribed_motions(*run.model) || !path.within.empty())
+    return run.account.add_step(system, path, first, path);
+  const State before = run.at_the_moment(path.before, length_before),
+              after = run.at_the_moment(path.after, run.last_step);
+  run.account.add_step(system, path, first, {before, after});
+}
+
 // Whether a step was shortened without having failed: by the places of nodes that move (step_limit).
 void note_cut(Run& run, double asked, const StepReport& taken) {
   if (!run.options.step || taken.rejected > 0 || taken.step > asked * (1 - 1e-9)) return;
@@ -235,7 +245,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   if (!run.options.step) run.step = taken.next_step;
   grow_transient(run);
   ++run.report.steps;
-  run.last_step = taken.step;
+  const double step_before = std::exchange(run.last_step, taken.step);
   note_cut(run, asked, taken);
   State before = run.integrator->take_before();
   before.t = at.state.t;  // which may have been put on a time of output
@@ -257,7 +267,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   run.last_record = {at.state.t, length, static_cast<int>(run.report.newton_iterations - iterations),
                      taken.rejected};
   run.steps.push_back(run.last_record);
-  run.account.add_step(*at.system, {before, at.state, states_within(run, length)}, first);
+  book(run, {before, at.state, states_within(run, length)}, first, step_before);
   return pass(run, landing, before);
 }
 

@@ -92,24 +92,8 @@ struct Simulation::Implementation {
       if (make_accelerations_consistent(*run_.at.system, state) == ConsistencyStatus::done)
         return snapshot_of(state, take);
     }
-    if (has_loose_multipliers()) {
-      State state = run_.at.state;
-      NearSolver solver;
-      if (balance_accelerations(*run_.at.system, run_.last_step, {}, solver, state).status ==
-          ConsistencyStatus::done)
-        return snapshot_of(state, take);
-    }
+    if (phase_ == Phase::motion) return snapshot_of(run_.at_the_moment(run_.at.state, run_.last_step), take);
     return snapshot_of(run_.at.state, take);
-  }
-
-  // Steps close the constraints' places alone. Where their length changes the multipliers are the second
-  // differences of what that leaves of velocities: forces of the step, a tenth of them off and more, not of
-  // the moment. Derivatives of them are those of the step.
-  bool has_loose_multipliers() const {
-    if (phase_ != Phase::motion || run_.options.step || run_.observer.follower) return false;
-    const BeamSystem& system = *run_.at.system;
-    const State& state = run_.at.state;
-    return !(system.constraint_curvature(state) + system.constraint_product(state, state.a)).isZero(0);
   }
 
   Snapshot snapshot_of(const State& state, const TakeElements& take) const {

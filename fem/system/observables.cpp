@@ -30,32 +30,45 @@ double heating_of(const Assembly<D>& a, const State& from, const State& to) {
 }
 
 template <int D>
-double input_work_of(const Assembly<D>& a, const State& from, const State& to) {
+double load_work_of(const Assembly<D>& a, const State& from, const State& to) {
   double sum = 0;
   const MeshedBeams<D> at = a.beams();
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (
-              requires { f.template work<D>(at, from, to); })
+          if constexpr (requires { f.template work<D>(at, from, to); })
             sum += f.template work<D>(at, from, to);
-          else if constexpr (
-              requires { f.work(at, from, to); })
+          else if constexpr (requires { f.work(at, from, to); })
             sum += f.work(at, from, to);
         },
         force);
+  return sum + heating_of(a, from, to);
+}
+
+template <int D>
+double motion_work_of(const Assembly<D>& a, const State& from, const State& to) {
+  double sum = 0;
   a.for_each_constraint([&](const auto& c, const auto& rows) {
     const auto y = [&](const State& state) { return state.lambda.segment(rows.first, rows.count); };
     if constexpr (requires { c.work(from, to, y(from), y(to)); }) sum += c.work(from, to, y(from), y(to));
   });
-  return sum + heating_of(a, from, to);
+  return sum;
 }
 
 }  // namespace
 
-double input_work(const BeamSystem& system, const State& from, const State& to) {
+double load_work(const BeamSystem& system, const State& from, const State& to) {
   return with_assembly(
-      system, [&](const auto& a) { return input_work_of(a, from, to); });
+      system, [&](const auto& a) { return load_work_of(a, from, to); });
+}
+
+double motion_work(const BeamSystem& system, const State& from, const State& to) {
+  return with_assembly(
+      system, [&](const auto& a) { return motion_work_of(a, from, to); });
+}
+
+double motion_power(const BeamSystem& system, const State& state) {
+  return state.lambda.dot(system.constraint_rate(state));
 }
 
 double lost_energy(const BeamSystem& system, const State& from, const State& to) {

@@ -13,9 +13,13 @@ SystemEnergy energy(const BeamSystem& system, const State& state);
 /// move alike in both nothing is found anew.
 SystemEnergy carried_energy(const SystemEnergy& known, const BeamSystem& system, const State& first,
                             const State& other);
-/// Work of all forces but weight, and of all prescribed motions, between two states of the system [J]: by the
-/// mean force, of second order in the time between them, exact for dead forces that stay at their place.
-double input_work(const BeamSystem& system, const State& from, const State& to);
+/// Work of all forces but weight between two states of the system [J]: by the mean force, of second order in
+/// the time between them, exact for dead forces that stay at their place.
+double load_work(const BeamSystem& system, const State& from, const State& to);
+/// The same of all prescribed motions.
+double motion_work(const BeamSystem& system, const State& from, const State& to);
+/// What prescribed motions do in a state [W]: lambda . dg/dt.
+double motion_power(const BeamSystem& system, const State& state);
 /// Energy that friction and the air take between two states of the system [J]: by the mean force.
 double lost_energy(const BeamSystem& system, const State& from, const State& to);
 /// Linear momentum [N s] of beams and bodies.
