@@ -24,11 +24,12 @@ std::shared_ptr<Recording> recording_for(const BuiltCase& c) {
 
 // Ctrl-C ends a search for rest. A motion is asked between two steps by the run itself, and so stays where it
 // can go on.
-SimulationObserver observer_of(const BuiltCase& c, Recording& recording, Interrupts& interrupts,
-                               const bool& begun) {
+SimulationObserver observer_of(const BuiltCase& c, Recording& recording, FrameChecks& checks,
+                               Interrupts& interrupts, const bool& begun) {
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& local) {
     recording.frames.push_back(to_world(c.built().frame, local));
+    checks.look_at(recording.frames.back());
   };
   const bool statics = c.case_file.analysis.type == CaseAnalysis::Type::statics;
   observer.interrupted = [statics, &begun, &interrupts] {
@@ -102,9 +103,10 @@ class LiveRun::Turn {
 LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, const Checkpoint* start)
     : of_(std::move(of)),
       recording_(recording_for(*of_)),
+      checks_(of_->built().model),
       simulation_(model_of(*of_, functions, start), probe_places(of_->built()),
-                  simulation_options(of_->case_file), observer_of(*of_, *recording_, interrupts_, begun_),
-                  start) {
+                  simulation_options(of_->case_file),
+                  observer_of(*of_, *recording_, checks_, interrupts_, begun_), start) {
   if (start) changed_loads_ = start->changed_loads;
 }
 

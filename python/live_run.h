@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/motion/simulation.h"
+#include "pipelines/run/run_checks.h"
 #include "python/built_case.h"
 #include "python/interrupts.h"
 #include "python/laws.h"
@@ -32,6 +33,7 @@ class LiveRun {
   const std::shared_ptr<Recording>& recording() const { return recording_; }
   SimulationReport report() const { return simulation_.report(); }
   Checkpoint checkpoint() const;
+  const FrameChecks& checks() const { return checks_; }
   const Simulation& simulation() const { return simulation_; }
   /// The present state as a snapshot of its own.
   Frame now() const;
@@ -44,6 +46,7 @@ class LiveRun {
 
   std::shared_ptr<BuiltCase> of_;
   std::shared_ptr<Recording> recording_;
+  FrameChecks checks_;
   Interrupts interrupts_;
   bool begun_ = false, ended_ = false;
   Simulation simulation_;

@@ -14,6 +14,7 @@
 #include "pipelines/results/restart_file.h"
 #include "pipelines/run/mode_run.h"
 #include "pipelines/run/run.h"
+#include "pipelines/run/run_checks.h"
 #include "pipelines/run/simulation_plan.h"
 #include "python/bindings.h"
 #include "python/interrupts.h"
@@ -37,16 +38,15 @@ py::dict event_facts(const RunEvent& event, const BuiltCase& c) {
 }
 
 // What a run came to.
-py::dict report_facts(const SimulationReport& report, const BuiltCase& c) {
+py::dict report_facts(const SimulationReport& report, const BuiltCase& c,
+                      const std::vector<Diagnostic>& warnings) {
   py::list events;
   for (const RunEvent& event : report.events) events.append(event_facts(event, c));
-  PlainFindings warnings;
-  if (const auto warning = energy_warning(c.case_file, report)) warnings = plain({*warning});
-  return py::dict("status"_a = outcome_text(report, c.built().model),
-                  "done"_a = report.status == SimulationStatus::done, "time"_a = report.time,
-                  "steps"_a = report.steps, "rejected_steps"_a = report.rejected_steps,
-                  "newton_iterations"_a = report.newton_iterations, "seconds"_a = report.motion_seconds,
-                  "energy_drift"_a = report.energy_drift, "events"_a = events, "warnings"_a = warnings);
+  return py::dict(
+      "status"_a = outcome_text(report, c.built().model), "done"_a = report.status == SimulationStatus::done,
+      "time"_a = report.time, "steps"_a = report.steps, "rejected_steps"_a = report.rejected_steps,
+      "newton_iterations"_a = report.newton_iterations, "seconds"_a = report.motion_seconds,
+      "energy_drift"_a = report.energy_drift, "events"_a = events, "warnings"_a = plain(warnings));
 }
 
 // (recording, report) of modes or buckling.
@@ -58,6 +58,7 @@ py::tuple modes(const std::shared_ptr<BuiltCase>& c, const Functions& functions)
   recording->names = snapshot_names(built);
   Interrupts interrupts;
   SimulationReport report;
+  FrameChecks checks(built.model);
   {
     const py::gil_scoped_release others_go_on;
     const auto keep = [&](const Snapshot& local) {
@@ -66,11 +67,22 @@ py::tuple modes(const std::shared_ptr<BuiltCase>& c, const Functions& functions)
     ModeTable table;
     report = run_modes(
         c->case_file, built, [&] { return interrupts.pending(); },
-        {.state = keep, .shape = keep, .turn = [](const auto&, const auto&) {}}, table);
+        {.state =
+             [&](const Snapshot& state) {
+               keep(state);
+               checks.look_at(recording->frames.back());
+             },
+         .shape = keep,
+         .turn = [](const auto&, const auto&) {}},
+        table);
     recording->modes = std::move(table);
   }
   interrupts.rethrow();
-  return py::make_tuple(recording, report_facts(report, *c));
+  std::vector<Diagnostic> warnings = run_warnings(c->case_file, built, report, checks);
+  for (const auto& more : {round_off_warning(c->case_file.path, built.model, *recording->modes),
+                           fewer_modes_note(c->case_file, *recording->modes)})
+    if (more) warnings.push_back(*more);
+  return py::make_tuple(recording, report_facts(report, *c, warnings));
 }
 
 // Runs into a results directory: (exit code, messages). `progress` is told the time ten times a second.
@@ -135,7 +147,11 @@ void bind_simulations(py::module_& module) {
       .def("now", &LiveRun::now)
       .def("checkpoint", &LiveRun::checkpoint)
       .def("change_load", &LiveRun::change_load, py::arg("number"), py::arg("value"))
-      .def("report", [](const LiveRun& run) { return report_facts(run.report(), *run.of()); });
+      .def("report", [](const LiveRun& run) {
+        const BuiltCase& of = *run.of();
+        const SimulationReport report = run.report();
+        return report_facts(report, of, run_warnings(of.case_file, of.built(), report, run.checks()));
+      });
 }
 
 }  // namespace nurbeam::python

@@ -209,7 +209,7 @@ class Run {
     summary_.rejected_steps = simulated.rejected_steps;
     summary_.newton_iterations = simulated.newton_iterations;
     summary_.energy_drift = simulated.energy_drift;
-    summary_.axial_mismatch = outputs.axial_mismatch();
+    summary_.axial_mismatch = outputs.checks().axial_mismatch();
     summary_.extremes = outputs.extremes();
     summary_.events = simulated.events;
     const SnapshotNames names = snapshot_names(built_);
@@ -221,15 +221,9 @@ class Run {
       event.momentum_before = built_.frame.direction_to_world(event.momentum_before);
       event.momentum_after = built_.frame.direction_to_world(event.momentum_after);
     }
-    std::vector<Diagnostic> warnings = shared_pull_warnings(case_.path, outputs.shared_pulls().coarse());
-    const auto pressed = compression_warning(case_.path, outputs.least_strain());
-    for (const auto& warning :
-         {pressed ? pressed : fold_warning(case_.path, outputs.fold()),
-          divergence_warning(case_.path, simulated), snap_warning(case_.path, simulated, built_.model),
-          mechanism_warning(case_.path, simulated, built_.frame), energy_warning(case_, simulated),
-          short_steps_note(case_.path, simulated),
-          summary_.modes ? fewer_modes_note(case_, *summary_.modes) : std::nullopt})
-      if (warning) warnings.push_back(*warning);
+    std::vector<Diagnostic> warnings = run_warnings(case_, built_, simulated, outputs.checks());
+    if (summary_.modes)
+      if (const auto note = fewer_modes_note(case_, *summary_.modes)) warnings.push_back(*note);
     print_diagnostics(messages_, warnings);
     print_diagnostics(*log_, warnings);
     summary_.diagnostics.insert(summary_.diagnostics.end(), warnings.begin(), warnings.end());

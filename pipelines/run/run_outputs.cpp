@@ -36,7 +36,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       results_(results_writer(case_file.name, built, directory, from)),
       cad_(case_file, built, directory, from ? from->snapshots : 0),
       next_restart_(Clock::now() + restart_interval),
-      pulls_(built.model) {
+      checks_(built.model) {
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
   if (!from || from->snapshots == 0) return;
@@ -45,17 +45,8 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
 }
 
 void RunOutputs::look_at(const Snapshot& frame) {
-  for (int b = 0; b < static_cast<int>(frame.beams.size()); ++b)
-    look_at(frame.beams[b].elements, b, frame.time);
-  pulls_.look_at(frame);
+  checks_.look_at(frame);
   extremes_.look_at(frame, snapshot_names(built_));
-}
-
-void RunOutputs::look_at(std::span<const ElementRecord> elements, int beam, double time) {
-  const std::string& name = built_.model.beams[beam].name;
-  mismatch_.look_at(elements, name, time);
-  least_strain_.look_at(elements, name, time);
-  fold_.look_at(elements, name, time);
 }
 
 template <class Work>
@@ -74,7 +65,7 @@ bool RunOutputs::takes_elements_ahead() const {
 void RunOutputs::write_ahead(double time, int beam, std::vector<ElementRecord>& local) {
   timed([&] {
     for (ElementRecord& element : local) put_into_world(built_.frame, element);
-    look_at(local, beam, time);
+    checks_.look_at(local, beam, time);
     results_.write_ahead(local);
   });
 }

@@ -9,9 +9,9 @@
 #include "pipelines/results/paraview.h"
 #include "pipelines/results/restart_file.h"
 #include "pipelines/results/results.h"
-#include "pipelines/results/run_summary.h"
-#include "pipelines/results/shared_pull.h"
+#include "pipelines/results/run_extremes.h"
 #include "pipelines/run/cad_output.h"
+#include "pipelines/run/run_checks.h"
 
 namespace nurbeam {
 
@@ -46,11 +46,7 @@ class RunOutputs {
   std::optional<StoredResults> all_frames() { return results_.all_frames(); }
   /// What could not be written into a CAD file; the run goes on.
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
-  /// The largest over all frames.
-  const Mismatch& axial_mismatch() const { return mismatch_; }
-  const LeastStrain& least_strain() const { return least_strain_; }
-  const Fold& fold() const { return fold_; }
-  const SharedPulls& shared_pulls() const { return pulls_; }
+  const FrameChecks& checks() const { return checks_; }
   const std::vector<RunExtreme>& extremes() const { return extremes_.list(); }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
@@ -60,7 +56,6 @@ class RunOutputs {
   template <class Work>
   void timed(Work work);
   void look_at(const Snapshot& frame);
-  void look_at(std::span<const ElementRecord> elements, int beam, double time);
   void put(Checkpoint point);
 
   const CaseFile& case_;
@@ -74,10 +69,7 @@ class RunOutputs {
   std::optional<Checkpoint> last_point_;  // for finish()
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
-  Mismatch mismatch_;
-  LeastStrain least_strain_;
-  Fold fold_;
-  SharedPulls pulls_;
+  FrameChecks checks_;
   RunExtremes extremes_;
 };
 

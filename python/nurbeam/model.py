@@ -99,6 +99,14 @@ def _json(value: Any) -> Any:
                     "or for a beam or a body its name or what add_beam and add_body have returned")
 
 
+def _rename_files(value: Any, renamed: Callable[[str], str]) -> None:
+    """Gives the files that a case or a study names other names, in place."""
+    for item in value.values() if isinstance(value, dict) else value if isinstance(value, list) else []:
+        _rename_files(item, renamed)
+    if isinstance(value, dict) and isinstance(value.get("file"), str):
+        value["file"] = renamed(value["file"])
+
+
 def _not_finite(value: Any, path: str = "") -> list[Finding]:
     """The numbers of a case or a study that are none."""
     if isinstance(value, dict):
@@ -151,6 +159,7 @@ class Model:
             self.case["gravity"] = _json(np.asarray(gravity, dtype=float) if not _has_text(gravity) else gravity)
         self.case.update(_json(keys))
         self._file = name
+        self._folder: str | None = None  # of the file that it was loaded from; None: the working directory
         self._laws: list[tuple[dict[str, Any], Force]] = []
         self._motions: list[MotionLaw] = []
 
@@ -313,18 +322,24 @@ class Model:
         other = Model.__new__(Model)
         other.case = copy.deepcopy(self.case)
         other._file = self._file
+        other._folder = self._folder
         other._laws = list(self._laws)
         other._motions = list(self._motions)
         return other
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes the case to a file, for the command line. Error where it has forces or motions by functions, which no file
-        holds."""
+        """Writes the case to a file, for the command line; files that it names are then relative to the new one. Error where
+        it has forces or motions by functions, which no file holds."""
         if self._laws or self._motions:
             raise Error("the model has forces or motions by functions, which a case file cannot hold")
         self._require_finite(self.case)
+        folder, target = self._folder or os.getcwd(), os.path.dirname(os.path.abspath(file))
+        case = copy.deepcopy(self.case)
+        if folder != target:
+            _rename_files(case, lambda name: name if os.path.isabs(name)
+                          else os.path.relpath(os.path.join(folder, name), target))
         with open(file, "w", encoding="utf-8") as stream:
-            json.dump(self.case, stream, indent=2)
+            json.dump(case, stream, indent=2)
             stream.write("\n")
 
     # --- Asking
@@ -343,12 +358,18 @@ class Model:
         self._require_finite(case)
         return json.dumps(case)
 
+    def _path(self) -> str:
+        """Of its file, beside which others are looked for, also from another working directory than it was loaded from."""
+        if self._folder is None or os.path.dirname(os.path.abspath(self._file)) == self._folder:
+            return self._file
+        return os.path.join(self._folder, os.path.basename(self._file))
+
     def _require_finite(self, case: dict[str, Any]) -> None:
         if wrong := _not_finite(case):
             raise CaseError([Finding(f.severity, f"{self._file}: {f.where}", f.message) for f in wrong])
 
     def _built(self, analysis: Mapping[str, Any], every: Quantity | None = None) -> tuple[_core.BuiltCase, list[Finding]]:
-        built, plain = _core.build(self._text(analysis, every), self._file)
+        built, plain = _core.build(self._text(analysis, every), self._path())
         findings = findings_of(plain)
         if built is None:
             raise CaseError(findings)
@@ -413,6 +434,7 @@ class Model:
             results = Results._of(recording, report)
             if not report["done"]:
                 raise RunError(report["status"], results)
+            tell(findings_of(report["warnings"]))
             return results
         with progress_bar(built, progress) as told:
             return Simulation(_core.LiveRun.begin(built, self._functions(), None), built).run(told)
@@ -431,6 +453,8 @@ class Model:
         results = Results(out)
         if code != 0:
             raise RunError("\n".join(lines) or messages, results)
+        said = [line.removeprefix("warning: ") for line in messages.splitlines() if line.startswith("warning: ")]
+        tell(Finding("warning", *line.split(": ", 1)) for line in said)
         return results
 
     def modes(self, count: int = 10, **modes: Any) -> Results:
@@ -512,6 +536,7 @@ def load(file: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> 
     model = Model.__new__(Model)
     model.case = case if isinstance(case, dict) else {"": case}
     model._file = os.fspath(file)
+    model._folder = os.path.dirname(os.path.abspath(file))
     model._laws = []
     model._motions = []
     return model

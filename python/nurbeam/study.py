@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from . import _core
 from .errors import CaseError, Finding, RunError, tell, unknown
-from .model import _json, _not_finite
+from .model import _json, _not_finite, _rename_files
 
 if TYPE_CHECKING:
     import pandas
@@ -53,12 +53,13 @@ class Study(Mapping[str, Array]):
         self._columns: dict[str, Array] = {}
         self.units: dict[str, str] = {}
         """Of the quantities that have one."""
-        for i, title in enumerate(heading[1:last], start=1):
-            name, _, unit = title.partition(" [")
-            if unit:
-                self.units[name] = unit.rstrip("]")
-            self._columns[name] = np.array([float(row[i]) if row[i] else math.nan for row in rows])
         summary = json.loads((self.directory / "study.json").read_text(encoding="utf-8"))
+        names = {each["name"] for key in ("variables", "quantities") for each in summary["study"].get(key, [])}
+        for i, title in enumerate(heading[1:last], start=1):
+            name, unit = (title, "") if title in names else title.removesuffix("]").rsplit(" [", 1)
+            if unit:
+                self.units[name] = unit
+            self._columns[name] = np.array([float(row[i]) if row[i] else math.nan for row in rows])
         self.answer: dict[str, Any] | None = summary["answer"]
         self.surrogates: list[dict[str, Any]] = summary["surrogates"]
         """Of each quantity, where the study asks for surrogates: q2, largest_error, sobol_indices."""
@@ -106,14 +107,6 @@ def _finding(line: str, file: Path) -> Finding:
     return Finding(severity, where, message) if message else Finding(severity, str(file), rest)
 
 
-def _name_files_absolutely(value: Any) -> None:
-    """The program looks for them beside the study file, which is another than the user's directory."""
-    for item in value.values() if isinstance(value, dict) else value if isinstance(value, list) else []:
-        _name_files_absolutely(item)
-    if isinstance(value, dict) and isinstance(value.get("file"), str):
-        value["file"] = os.path.abspath(value["file"])
-
-
 def _described(study: Mapping[str, Any]) -> Any:
     """As a study file has it."""
     described = _json(study)
@@ -121,7 +114,7 @@ def _described(study: Mapping[str, Any]) -> Any:
         raise CaseError([Finding(f.severity, f"study: {f.where}", f.message) for f in wrong])
     if isinstance(described.get("case"), str):
         described["case"] = os.path.abspath(described["case"])
-    _name_files_absolutely(described)
+    _rename_files(described, os.path.abspath)  # they are looked for beside the study file, which is elsewhere
     return described
 
 
