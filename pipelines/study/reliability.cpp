@@ -78,14 +78,23 @@ OT::FORMResult form_of(const StudyFile& study, const StudyReliability& reliabili
   return form.getResult();
 }
 
+// Blocks of one size that use up as many of the variants as can be, of half that length and more.
+std::size_t block_size(std::size_t count, std::size_t longest) {
+  if (count <= longest) return count;
+  std::size_t best = longest;
+  for (std::size_t block = longest; block > longest / 2; --block)
+    if (count % block < count % best) best = block;
+  return best;
+}
+
 ReliabilityResult simulated(const StudyReliability& reliability, const OT::RandomVector& event,
                             const OT::WeightedExperiment& experiment) {
   OT::ProbabilitySimulationAlgorithm algorithm(event, experiment);
   const auto count = static_cast<std::size_t>(reliability.count);
   const std::size_t longest = reliability.coefficient_of_variation > 0 ? short_block : long_block;
-  const std::size_t blocks = (count + longest - 1) / longest;
-  algorithm.setBlockSize(count / blocks);
-  algorithm.setMaximumOuterSampling(blocks);
+  const std::size_t block = block_size(count, longest);
+  algorithm.setBlockSize(block);
+  algorithm.setMaximumOuterSampling(count / block);
   algorithm.setMaximumCoefficientOfVariation(reliability.coefficient_of_variation);
   algorithm.run();
   const OT::ProbabilitySimulationResult result = algorithm.getResult();

@@ -325,15 +325,14 @@ void check_paths(const StudyFile& study, const Json& case_json,
       const AppliedOverride applied = apply_override(json, path + "=1");
       if (!applied.problem.empty() && dimension_at(path).dimension)
         findings.error(variable.path + ".path", applied.problem);
-      const auto& [owner, written] =
-          owners.try_emplace(applied.problem.empty() ? applied.path : path, variable.name, path)
-              .first->second;
+      const std::string& place = applied.problem.empty() ? applied.path : path;
+      const auto& [owner, written] = owners.try_emplace(place, variable.name, path).first->second;
       if (written != path)  // what is written alike has been found
         findings.error(variable.path + ".path",
                        in_quotes(path) + " is " + in_quotes(written) + ", which " + in_quotes(owner) +
                            " sets; one variable can set it, with a \"value\" made of others");
       for (const auto& [beam, curve] : curves)
-        if (is_in_axis(path, beam, curve.beam))
+        if (is_in_axis(place, beam, curve.beam))
           findings.error(variable.path + ".path",
                          "is of a curve that other variables move: move it with \"control_point\", "
                          "\"weight\" or \"transform\"");

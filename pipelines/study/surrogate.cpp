@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <stdexcept>
 
 #include "nurbs/number_text.h"
@@ -14,9 +16,13 @@ std::size_t held_back(const StudySurrogate& surrogate, std::size_t variants) {
 }
 
 struct Fitted {
-  OT::Function function;
+  std::function<double(const OT::Point&)> value;
   std::vector<double> first_order = {}, total_order = {};
 };
+
+std::function<double(const OT::Point&)> value_of(const OT::Function& function) {
+  return [function](const OT::Point& x) { return function(x)[0]; };
+}
 
 Fitted chaos_of(const StudyFile& study, int degree, const OT::Sample& x, const OT::Sample& y) {
   const OT::Distribution joint = joint_distribution(study);
@@ -32,7 +38,7 @@ Fitted chaos_of(const StudyFile& study, int degree, const OT::Sample& x, const O
                                          OT::LeastSquaresStrategy());
   algorithm.run();
   const OT::FunctionalChaosResult result = algorithm.getResult();
-  Fitted fitted{result.getMetaModel()};
+  Fitted fitted{value_of(result.getMetaModel())};
   const OT::FunctionalChaosSobolIndices indices(result);
   for (std::size_t i = 0; i < inputs; ++i) {
     fitted.first_order.push_back(indices.getSobolIndex(i));
@@ -57,7 +63,24 @@ Fitted kriging_of(const OT::Sample& x, const OT::Sample& y) {
   algorithm.setOptimizationAlgorithm(
       OT::NLopt("LN_COBYLA"));  // the default's search along lines fails at times
   algorithm.run();
-  return {OT::ComposedFunction(algorithm.getResult().getMetaModel(), parts)};
+  return {value_of(OT::ComposedFunction(algorithm.getResult().getMetaModel(), parts))};
+}
+
+// By no more than round-off.
+bool hardly_varies(const StudyPoints& outputs, std::size_t quantity) {
+  constexpr double round_off = 1e-13;
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const auto& row : outputs) {
+    least = std::min(least, row[quantity]);
+    greatest = std::max(greatest, row[quantity]);
+  }
+  return greatest - least <= round_off * std::max(std::abs(least), std::abs(greatest));
+}
+
+// What does not vary: no part of it is any variable's.
+Fitted constant_of(const StudyFile& study, double value, bool with_indices) {
+  const std::vector<double> none(with_indices ? study.free_variables().size() : 0, 0.0);
+  return {[value](const OT::Point&) { return value; }, none, none};
 }
 
 }  // namespace
@@ -94,16 +117,17 @@ std::vector<SurrogateResult> make_surrogates(const StudyFile& study, const Study
   std::vector<SurrogateResult> results;
   for (std::size_t k = 0; k < study.quantities.size(); ++k) {
     const OT::Sample x = to_sample(fit_x), y = to_sample(fit_y).getMarginal(k);
-    const Fitted fitted = surrogate.kind == StudySurrogate::Kind::chaos
-                              ? chaos_of(study, surrogate.degree, x, y)
-                              : kriging_of(x, y);
+    const bool is_chaos = surrogate.kind == StudySurrogate::Kind::chaos;
+    const Fitted fitted = hardly_varies(fit_y, k) ? constant_of(study, y[0][0], is_chaos)
+                          : is_chaos              ? chaos_of(study, surrogate.degree, x, y)
+                                                  : kriging_of(x, y);
     SurrogateResult result{.quantity = study.quantities[k].name,
                            .first_order = fitted.first_order,
                            .total_order = fitted.total_order};
     double mean = 0, squares = 0, errors = 0;
     for (const auto& row : test_y) mean += row[k] / static_cast<double>(test_y.size());
     for (std::size_t i = 0; i < test_y.size(); ++i) {
-      const double error = fitted.function(to_point(test_x[i]))[0] - test_y[i][k];
+      const double error = fitted.value(to_point(test_x[i])) - test_y[i][k];
       errors += error * error;
       squares += (test_y[i][k] - mean) * (test_y[i][k] - mean);
       result.largest_error = std::max(result.largest_error, std::abs(error));
