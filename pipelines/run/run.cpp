@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -114,9 +115,10 @@ class Run {
       const std::optional<StoredResults> frames = outputs.all_frames();
       frames ? write_report(options_.out, *frames) : write_report(options_.out);
     }
-    if (simulated.status != SimulationStatus::done)
+    if (simulated.status != SimulationStatus::done && !thrown_)
       tell(case_.path.string() + ": error: " + outcome_text(simulated, built_.model));
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
+    if (thrown_) std::rethrow_exception(thrown_);
     return exit_code_of(simulated.status);
   }
 
@@ -188,11 +190,32 @@ class Run {
     };
     // The model itself, which stays where it is: a copy would be there as long.
     const std::shared_ptr<const BeamModel> model(std::shared_ptr<void>(), &built_.model);
-    SimulationReport simulated =
-        simulate(model, probe_places(built_), simulation_options(case_), observer, from_ ? &*from_ : nullptr);
+    SimulationReport simulated = simulated_until_thrown(model, std::move(observer));
     shown.finish();
     simulated.motion_seconds = std::max(0.0, simulated.motion_seconds - outputs.seconds());
     return simulated;
+  }
+
+  // What functions of the caller throw ends the run as an interruption does, and is thrown behind it.
+  SimulationReport simulated_until_thrown(const std::shared_ptr<const BeamModel>& model,
+                                          SimulationObserver observer) {
+    SimulationReport so_far;
+    so_far.time = from_ ? from_->state.t : 0;
+    observer.progress = [&so_far, told = std::move(observer.progress)](const StepRecord& step) {
+      so_far.time = step.time;
+      ++so_far.steps;
+      told(step);
+    };
+    try {
+      return simulate(model, probe_places(built_), simulation_options(case_), observer,
+                      from_ ? &*from_ : nullptr);
+    } catch (const std::runtime_error&) {  // of our own: files that cannot be written
+      throw;
+    } catch (...) {
+      thrown_ = std::current_exception();
+      so_far.status = SimulationStatus::interrupted;
+      return so_far;
+    }
   }
 
   void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
@@ -244,6 +267,7 @@ class Run {
   RunSummary summary_;
   std::optional<Checkpoint> from_;
   std::optional<std::ofstream> log_;
+  std::exception_ptr thrown_;  // by a function of the caller
 };
 
 }  // namespace

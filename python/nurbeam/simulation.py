@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 import os
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
@@ -137,7 +138,13 @@ class Simulation:
         """Gives a load another value from now on, a vector in world coordinates: three numbers, in N for a force, N m for
         a moment, N/m for a force per length; texts with units are for models alone. `load` is what `model.add_load` has
         returned, or its number among the loads of the case."""
-        number = load if isinstance(load, int) else load.number
+        number = getattr(load, "number", load)
+        try:
+            number = operator.index(number)
+        except TypeError:
+            raise ValueError(f"the load is {load!r}; expected what add_load has returned, or a number") from None
+        if number < 0:
+            raise ValueError(f"the load is {number}; they are counted from 0")
         try:
             vector = np.asarray(value, dtype=float)
         except (TypeError, ValueError):

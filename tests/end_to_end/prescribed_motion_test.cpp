@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -67,6 +68,55 @@ TEST(PrescribedMotion, JumpsInItsSpeedAreTheWorkOfItsDrive) {
     EXPECT_NEAR(run.value(i, "m.vx [m/s]"), speed, 3e-2) << t;
     EXPECT_NEAR(run.value(i, "energy.input [J]"), speed * speed / 2 - 2, 5e-2) << t;
     EXPECT_NEAR(run.value(i, "energy.total [J]"), start, 5e-3) << t;
+  }
+}
+
+// A stout bar of 0.98 kg on a support that moves from row to row, where its acceleration jumps: all that is
+// put in moves it.
+TEST(PrescribedMotion, OfASupportPutsInWhatItMovesByAnyIntegrator) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write("carried.json", R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [0.1, 0, 0]] }, "section": { "radius": 0.02 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11, "damping": 1e-4 }, "elements": { "count": 2 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "clamped",
+                   "motion": [[0, 0, 0, 0], [0.1, 0.1, 0, 0.3], [0.22, 0.5, 0, 0.4], [0.3, 0.6, 0, 0], [0.45, 0, 0, -0.6]] }],
+    "analysis": { "end_time": 0.4 }, "output": { "report": false, "every": 0.04 } })");
+  for (const std::vector<std::string>& by :
+       {std::vector<std::string>{R"(analysis.integrator={"type": "radau"})"},
+        {R"(analysis.integrator={"type": "radau"})", "analysis.step=0.004"},
+        {R"(analysis.integrator={"type": "radau"})", "analysis.step=0.002"},
+        {"analysis.step=2e-4"}}) {
+    const CaseRun run = run_file(file, by);
+    EXPECT_EQ(run.code, 0) << run.messages;
+    EXPECT_FALSE(run.says("warning")) << run.messages;
+    for (std::size_t i = 0; i < run.rows.size(); ++i) {
+      const double kinetic = run.value(i, "energy.kinetic [J]");
+      EXPECT_NEAR(run.value(i, "energy.input [J]"), kinetic, 0.01 + 3e-3 * kinetic) << by.back() << " " << i;
+    }
+  }
+}
+
+// At constant speed round an upright circle its drive does the work of gravity alone, however hard the body
+// presses on its guide.
+TEST(PrescribedMotion, RoundACircleTakesNoWorkUnderErrorControl) {
+  const TemporaryDirectory directory;
+  const auto file =
+      directory.write("round.json", R"({ "nurbeam": 1, "beams": [{ "name": "r", "rigid": true, "closed": true,
+      "axis": { "arc": { "center": [0, 0, 0], "start": [1, 0, 0], "end": [1, 0, 0], "normal": [0, -1, 0] } } }],
+    "bodies": [{ "name": "p", "mass": 2 }],
+    "sliding_joints": [{ "body": "p", "beam": "r", "at": "start", "motion": { "speed": 6.283185307179586 } }],
+    "analysis": { "end_time": 3 }, "output": { "report": false, "every": 0.125 } })");
+  double last = 0;
+  for (const char* tolerance : {"1e-4", "1e-5", "1e-6"}) {
+    const CaseRun run = run_file(file, {std::string("analysis.tolerance=") + tolerance});
+    EXPECT_EQ(run.code, 0) << run.messages;
+    double largest = 0;
+    for (std::size_t i = 0; i < run.rows.size(); ++i)
+      largest =
+          std::max(largest, std::abs(run.value(i, "energy.input [J]") - 2 * 9.81 * run.value(i, "p.z [m]")));
+    EXPECT_LE(largest, 0.05) << tolerance;
+    if (last > 0) EXPECT_LE(largest, last / 2) << tolerance;
+    last = largest;
   }
 }
 

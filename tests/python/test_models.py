@@ -18,6 +18,35 @@ def test_a_cantilever_bends_as_a_beam_does():
     assert np.abs(moment) == pytest.approx(force * (1 - s), abs=1e-8)
 
 
+def test_a_model_saved_elsewhere_names_the_same_files(tmp_path, monkeypatch):
+    drawn, saved = tmp_path / "drawn", tmp_path / "saved"
+    for folder, length in (drawn, 2.0), (saved, 3.0):
+        folder.mkdir()
+        nb.Curve.line([0, 0, 0], [length, 0, 0]).save(folder / "axis.step")
+
+    def length_of(model):
+        return model.summary()["beams"][0]["length [m]"]
+
+    def modelled():
+        model = nb.Model(gravity=[0, 0, -9.81])
+        beam = model.add_beam({"file": "axis.step"}, section=nb.Circle(radius=0.01), material="steel", elements=2)
+        model.add_support(beam, at="start", type="clamped")
+        model.set("analysis", {"type": "static"})
+        return model
+
+    monkeypatch.chdir(drawn)
+    modelled().save("case.json")
+    assert nb.load("case.json").case["beams"][0]["axis"]["file"] == "axis.step"
+    modelled().save(saved / "modelled.json")
+    loaded = nb.load("case.json")
+    monkeypatch.chdir(tmp_path)
+    assert length_of(loaded) == pytest.approx(2), "from another working directory"
+    loaded.save(saved / "loaded.json")
+    loaded.copy().save("copied.json")
+    for file in saved / "modelled.json", saved / "loaded.json", tmp_path / "copied.json":
+        assert length_of(nb.load(file)) == pytest.approx(2), file
+
+
 def test_a_model_saved_is_the_case_that_the_command_line_runs(command, tmp_path):
     model = straight_cantilever(tip=[0, -1, 0])
     model.add_probe("tip", "rod", "end")

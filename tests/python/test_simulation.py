@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -345,3 +346,59 @@ def test_resuming_a_run_with_functions_says_that_they_are_not_compared(tmp_path)
     pushed(1).run(end_time=0.01, step=1e-3, out=tmp_path / "out")
     with pytest.warns(nb.CaseWarning, match="the functions of the model cannot be compared"):
         pushed(2).run(end_time=0.01, step=1e-3, out=tmp_path / "out", resume=True)
+
+
+def pressed_column(load):
+    """On two pins, over Euler's load of 435 N; `load` along x."""
+    model = nb.Model(gravity=[0, 0, 0])
+    beam = model.add_beam([[0, 0, 0], [1, 0, 0]], section=nb.Circle(radius=0.0048), material=nb.Material(7850, 2.1e11),
+                          elements=8)
+    model.add_support(beam, at="start", type="pinned")
+    model.add_support(beam, at="end", type="guided", direction=[1, 0, 0])
+    model.add_load(beam, at="end", force=[-load, 0, 0])
+    return model
+
+
+@pytest.mark.parametrize("out", [None, "out"])
+def test_what_a_run_rings_is_given_as_a_warning(tmp_path, out):
+    where = {} if out is None else {"out": tmp_path / out, "progress": False}
+    euler = np.pi**2 * 2.1e11 * np.pi / 4 * 0.0048**4
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        pressed_column(0.9 * euler).run(type="static", **where)
+    with pytest.warns(nb.CaseWarning, match="snaps through or buckles") as told:
+        results = pressed_column(1.5 * euler).run(type="static", **where)
+    assert len(told) == 1 and len(results.report["warnings"]) == 1
+    loose = nb.Model(gravity=[0, 0, 0])
+    beam = loose.add_beam([[0, 0, 0], [1, 0, 0]], section=nb.Circle(radius=0.005), material="steel", elements=4)
+    loose.add_support(beam, at="start", type="pinned")
+    with pytest.warns(nb.CaseWarning, match="nothing resists a motion"):
+        loose.run(type="static", **where)
+
+
+def test_frames_until_a_law_raises_are_there(tmp_path):
+    model = straight_cantilever()
+
+    def law(t, r, v):
+        if t > 0.03:
+            raise ZeroDivisionError("my own")
+        return 0, -1, 0
+
+    model.add_force(law, beam="rod", at="end")
+    with pytest.raises(ZeroDivisionError, match="my own"):
+        model.run(**RUN, out=tmp_path / "out", progress=False)
+    results = nb.Results(tmp_path / "out")
+    assert len(results) == 7 and results.times[-1] == pytest.approx(0.03)
+    assert results.report["status"].startswith("interrupted at t = 0.03")
+    assert not list((tmp_path / "out").glob("*.part"))
+
+
+def test_a_load_that_is_none_is_refused():
+    model = straight_cantilever()
+    load = model.add_load("rod", at="end", force=[0, -1, 0])
+    simulation = model.simulate(**RUN)
+    for which in load, 0, np.int64(0):
+        simulation.set_load(which, [0, -2, 0])
+    for which in "x", 1.5, -1, 1:
+        with pytest.raises(ValueError, match="load"):
+            simulation.set_load(which, [0, -2, 0])

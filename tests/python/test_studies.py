@@ -199,3 +199,10 @@ def test_an_estimate_at_the_edge_of_a_constraint_is_told(tmp_path, monkeypatch):
         answer = nb.study(study).answer
     assert answer["active_constraints"] == ["g < -9.5"] and "sd" not in answer["estimates"]["g"]
     assert answer["estimates"]["g"]["value"] == pytest.approx(-9.5, rel=1e-5)
+
+
+def test_columns_have_the_names_of_variables_and_quantities():
+    study = nb.study({"nurbeam_study": 1, "variables": [{"name": "mass [kg]", "range": [1, 2]}, {"name": "mass [lb]", "range": [5, 6]}],
+                      "quantities": [{"name": "f [x]", "value": "'mass [kg]' + 'mass [lb]'"}], "plan": {"grid": 2}}, jobs=1)
+    assert list(study) == ["mass [kg]", "mass [lb]", "f [x]"]
+    assert np.array_equal(study["f [x]"], study["mass [kg]"] + study["mass [lb]"])

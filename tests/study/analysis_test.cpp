@@ -113,6 +113,28 @@ TEST(Surrogate, ByKrigingAnswersWhateverTheUnits) {
   EXPECT_GE(make_surrogates(study, *study.surrogate, points, evaluated(study, points))[0].q2, 0.99);
 }
 
+// Beside one that does vary.
+TEST(Surrogate, OfWhatDoesNotVaryHasNoIndices) {
+  for (const char* type : {"chaos", "kriging"})
+    for (const char* constant : {"x > 5", "0 * x + 1", "or(0, x)"}) {
+      const StudyFile study = study_of(std::string(R"json({"nurbeam_study": 1,
+    "variables": [{"name": "x", "range": [0, 1]}, {"name": "y", "range": [0, 1]}],
+    "quantities": [{"name": "f", "value": ")json") +
+                                       constant + R"json("}, {"name": "g", "value": "x + y"}],
+    "plan": {"latin_hypercube": {"count": 50}}, "surrogate": {"type": ")json" +
+                                       type + "\"}}");
+      const StudyPoints points = plan_points(study, std::get<StudyPlan>(study.task));
+      const std::vector<SurrogateResult> made =
+          make_surrogates(study, *study.surrogate, points, evaluated(study, points));
+      ASSERT_EQ(made.size(), 2U) << type << constant;
+      EXPECT_EQ(made[0].q2, 1);
+      EXPECT_EQ(made[0].largest_error, 0);
+      for (const double index : made[0].first_order) EXPECT_EQ(index, 0);
+      EXPECT_EQ(made[0].total_order.size(), std::string(type) == "chaos" ? 2U : 0U);
+      EXPECT_GE(made[1].q2, 0.999) << type << constant;
+    }
+}
+
 TEST(Surrogate, ThatHasMoreTermsThanRowsIsRefused) {
   const auto plan = [](int count) {
     return ishigami_head + R"json("plan": {"latin_hypercube": {"count": )json" + std::to_string(count) +
@@ -233,6 +255,8 @@ TEST(Reliability, BySimulationRunsAsManyAsAskedForOrUntilItIsSure) {
     return count;
   };
   EXPECT_EQ(runs(""), 2000U);
+  // Sure of 0.03 after 2157 of them.
+  EXPECT_EQ(runs(R"(, "coefficient_of_variation": 0.03)"), 2000U);
   const std::size_t until_sure =
       runs(R"(, "coefficient_of_variation": 0.1)");  // sqrt((1 - p) / (p n)), p = 0.34
   EXPECT_GE(until_sure, 120U);

@@ -120,6 +120,19 @@ TEST(StudyCase, SaysOfEveryVariableWhatIsWrongWithIt) {
     EXPECT_NE(read.messages.find(expected), std::string::npos) << read.messages;
 }
 
+// However its path is written.
+TEST(StudyCase, RefusesNumbersOfACurveThatOtherVariablesMove) {
+  for (const char* axis : {"beams[0].axis", "beams[rail].axis", "beams.rail.axis", "beams.0.axis"}) {
+    const ReadCase read = read_with(one_point + R"json(, {"name": "p", "range": [0, 1], "path": ")json" +
+                                    axis + R"json(.nurbs.control_points[1][2]"})json");
+    EXPECT_FALSE(read.of_case.value) << axis;
+    EXPECT_NE(read.messages.find("variables[1].path: is of a curve that other variables move"),
+              std::string::npos)
+        << axis << "\n"
+        << read.messages;
+  }
+}
+
 TEST(StudyCase, SaysOfEveryQuantityWhatIsWrongWithIt) {
   ReadCase read = read_with(one_point);
   const auto quantity = [&](const std::string& name, const std::string& value) {
