@@ -204,7 +204,7 @@ std::span<const State> states_within(const Run& run, double length) {
 // `length_before`: of the step that led to its start.
 void book(Run& run, const StepPath& path, bool first, double length_before) {
   const BeamSystem& system = *run.at.system;
-  if (!has_prescribed_motions(*run.model) || !path.within.empty())
+  if (run.options.step || !has_prescribed_motions(*run.model) || !path.within.empty())
     return run.account.add_step(system, path, first, path);
   const State before = run.at_the_moment(path.before, length_before),
               after = run.at_the_moment(path.after, run.last_step);
