@@ -184,7 +184,7 @@ TEST(GuideRun, AReleasedBodyThatSticksLosesNothing) {
       "sliding_joints": [{"body": "bead", "beam": "rail", "at": {"length": 2}, "release": 1,
         "friction": {"coefficient": 0.1, "static": 0.25, "stick_stiffness": 100}}],
       "analysis": {"end_time": 3}})");
-  const double pull = 5 * standard_gravity * 2 / std::sqrt(104.0);
+  const double pull = 5 * g * 2 / std::sqrt(104.0);
   for (const std::vector<std::string>& with :
        {std::vector<std::string>{}, {"analysis.step=1e-3"}, {"analysis.integrator={\"type\": \"radau\"}"}}) {
     const CaseRun run = run_file(file, with);
