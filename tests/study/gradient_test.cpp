@@ -186,7 +186,7 @@ TEST(Gradient, OfExtremesThatOtherTimesNearlyReach) {
       {"name": "k", "path": "connectors[0].stiffness", "range": [40, 60], "nominal": 50}], )json";
   const auto gradient = [&](const std::string& quantities) {
     StudyOfCase of(swing, variables + R"json("quantities": [)json" + quantities +
-                              R"json(], "plan": {"gradient": "nominal"}})json");
+                              R"json(], "plan": {"gradient": "nominal"})json");
     return of.run(of.nominal(), true).gradient;
   };
   const std::string speed = R"json({"name": "speed", "value": "max(t.speed)"})json",
