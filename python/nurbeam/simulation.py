@@ -138,7 +138,7 @@ class Simulation:
         """Gives a load another value from now on, a vector in world coordinates: three numbers, in N for a force, N m for
         a moment, N/m for a force per length; texts with units are for models alone. `load` is what `model.add_load` has
         returned, or its number among the loads of the case."""
-        number = getattr(load, "number", load)
+        number: Any = getattr(load, "number", load)
         try:
             number = operator.index(number)
         except TypeError:

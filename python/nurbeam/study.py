@@ -56,7 +56,8 @@ class Study(Mapping[str, Array]):
         summary = json.loads((self.directory / "study.json").read_text(encoding="utf-8"))
         names = {each["name"] for key in ("variables", "quantities") for each in summary["study"].get(key, [])}
         for i, title in enumerate(heading[1:last], start=1):
-            name, unit = (title, "") if title in names else title.removesuffix("]").rsplit(" [", 1)
+            has_unit = title not in names and title.endswith("]")
+            name, unit = title.removesuffix("]").rsplit(" [", 1) if has_unit else (title, "")
             if unit:
                 self.units[name] = unit
             self._columns[name] = np.array([float(row[i]) if row[i] else math.nan for row in rows])

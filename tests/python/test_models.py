@@ -22,7 +22,7 @@ def test_a_model_saved_elsewhere_names_the_same_files(tmp_path, monkeypatch):
     drawn, saved = tmp_path / "drawn", tmp_path / "saved"
     for folder, length in (drawn, 2.0), (saved, 3.0):
         folder.mkdir()
-        nb.Curve.line([0, 0, 0], [length, 0, 0]).save(folder / "axis.step")
+        nb.write(folder / "axis.step", nb.Curve.line([0, 0, 0], [length, 0, 0]))
 
     def length_of(model):
         return model.summary()["beams"][0]["length [m]"]
