@@ -45,7 +45,8 @@ class EquilibriumSearch {
         kinsol_(equations_) {}
 
   StaticReport run() {
-    if (!reach(1).converged && steps_left()) {
+    const auto settles = [&](FirstStep first) { return reach(1, first).converged || !steps_left(); };
+    if (!settles(FirstStep::full) && !settles(FirstStep::bounded)) {
       const Outcome start = reach(0);
       const bool diverges = start.unstable() && diverged_;  // what ended another search, if anything
       if (start.converged)
@@ -78,6 +79,8 @@ class EquilibriumSearch {
     bool unstable() const { return stability.unstable_directions > 0; }
     bool branches() const { return unstable() && !turns_back; }
   };
+
+  enum class FirstStep { full, bounded };
 
   /// Applies the load in increments from the equilibrium without load.
   void follow_load() {
@@ -113,11 +116,11 @@ class EquilibriumSearch {
   /// Newton at a load factor from the last equilibrium to a stable one within the bound on the change, and on
   /// its branch. From a singular tangent its direction means nothing, and so does the equilibrium it may end
   /// in.
-  Outcome reach(double factor) {
+  Outcome reach(double factor, FirstStep first = FirstStep::full) {
     ++report_.load_steps;
     State trial = state_;
     const Vector way = heading(factor);
-    Outcome outcome = newton(factor, trial);
+    Outcome outcome = newton(factor, trial, first);
     const double moved = change(trial, state_);
     outcome.turns_back = moved > noticeable_change && (trial.q - state_.q).cwiseQuotient(scale_).dot(way) < 0;
     if (outcome.branches() && change(trial, start_) <= settled_change) report_.leaves_start = true;
@@ -199,7 +202,7 @@ class EquilibriumSearch {
   /// Solves the equilibrium at `factor` from `trial`, in place; rescaled as the multipliers become known.
   ///
   /// Full Newton steps come first: where stiff members turn, a line search would follow them in tiny steps.
-  Outcome newton(double factor, State& trial) {
+  Outcome newton(double factor, State& trial, FirstStep first = FirstStep::full) {
     trial.load = factor;
     equations_.set_load(factor);
     equations_.clear_proximity();
@@ -212,7 +215,8 @@ class EquilibriumSearch {
     const bool is_loaded = sizes_.applied_force(trial) > 0;
     if (quality.acceptable && !is_loaded) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
-    if (!outcome.converged && !outcome.singular_at_start) take_bounded_step(trial);
+    if (first == FirstStep::bounded && (outcome.singular_at_start || !take_bounded_step(trial)))
+      return outcome;
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
       const auto found = improved(x, quality.allowed, strategy, iterations, outcome);
@@ -246,27 +250,29 @@ class EquilibriumSearch {
   }
 
   /// Newton's first step where it leads out of the model, as a straight wire's does, which is soft as long as
-  /// it is straight: as far as the forces along it lead. From there full steps know what is stiff.
-  void take_bounded_step(State& trial) {
+  /// it is straight: as far as the forces along it lead. From there full steps know what is stiff. Whether
+  /// there is such a one.
+  bool take_bounded_step(State& trial) {
     const int n = equations_.coordinates();
     const Vector x = equations_.scaled_unknowns(trial);
     Vector rows(equations_.size());
-    if (!equations_.evaluate(x, rows)) return;
+    if (!equations_.evaluate(x, rows)) return false;
     const Vector step = -kkt_solver_.solve(rows);
     const double length = step.head(n).lpNorm<Eigen::Infinity>();
-    if (!step.allFinite() || !(length > largest_change)) return;
+    if (!step.allFinite() || !(length > largest_change)) return false;
     const auto leads_on = [&](double part) {
       return equations_.evaluate(x + part * step, rows) && rows.head(n).dot(step.head(n)) < 0;
     };
     double high = largest_change / length, low = high;
     constexpr int most_tenths = 12, most_halvings = 12;
     for (int i = 0; i < most_tenths && !leads_on(low); ++i) low = (high = low) / 10;
-    if (low == high) return;
+    if (low == high) return false;
     for (int i = 0; i < most_halvings; ++i) {
       const double middle = std::sqrt(low * high);
       (leads_on(middle) ? low : high) = middle;
     }
     trial = equations_.state_of(x + low * step);
+    return true;
   }
 
   /// Of the equilibrium whose tangent the equations have.

@@ -37,12 +37,12 @@ struct StaticReport {
 /// Equilibrium f(q, 0, t) = G'lambda, g(q, t) = 0 by KINSOL (full Newton steps, then line search; KLU), in
 /// place.
 ///
-/// State::load in [0, 1] scales the system's loads. The full load is tried directly. A first Newton step that
-/// moves a coordinate by more than its coordinate_scale() goes as far as the work of the forces along it lets
-/// it, for it is that of something soft only as long as it is as drawn: a straight wire. When that does not
-/// converge, moves a coordinate by more than its coordinate_scale(), or against where the tangent at the
-/// start leads, the load is applied in adaptive increments under the same bounds, so that the branch of
-/// equilibria that starts at `state` is followed. An equilibrium that is not stable (stability.h) is none: it
+/// State::load in [0, 1] scales the system's loads. The full load is tried directly; then with a first Newton
+/// step that, where it moves a coordinate by more than its coordinate_scale(), goes no further than the work
+/// of the forces along it lets it: that of something soft only as long as it is as drawn, a straight wire.
+/// When that does not converge, moves a coordinate by more than its coordinate_scale(), or against where the
+/// tangent at the start leads, the load is applied in adaptive increments under the same bounds, so that the
+/// branch of equilibria that starts at `state` is followed. An equilibrium that is not stable (stability.h) is none: it
 /// is left along its unstable direction; but where loads have no energy and nothing stable is found, one that
 /// diverges is better than nothing. Where no increment converges (a straight or slack cable without tension
 /// has a singular tangent, a snap-through no equilibrium nearby) a load beyond is reached by proximal steps
