@@ -45,8 +45,8 @@ class EquilibriumSearch {
         kinsol_(equations_) {}
 
   StaticReport run() {
-    const auto settles = [&](FirstStep first) { return reach(1, first).converged || !steps_left(); };
-    if (!settles(FirstStep::full) && !settles(FirstStep::bounded)) {
+    const auto is_over = [&](FirstStep first) { return reach(1, first).converged || !steps_left(); };
+    if (!is_over(FirstStep::full) && !is_over(FirstStep::bounded)) {
       const Outcome start = reach(0);
       const bool diverges = start.unstable() && diverged_;  // what ended another search, if anything
       if (start.converged)
