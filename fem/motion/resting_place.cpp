@@ -68,6 +68,26 @@ class RestSearch {
     return told([&] { hold_in_equilibrium(at_.system->mesh().plan); });
   }
 
+  // The same on a mesh in which nothing is to change where the motion begins with these speeds.
+  RestReport held_start() {
+    return told([&] {
+      MeshPlan plan = at_.system->mesh().plan;
+      constexpr int most_rounds = 10;
+      for (int round = 0; round < most_rounds && hold_in_equilibrium(std::move(plan)); ++round) {
+        const BeamSystem* const before = at_.system.get();
+        for (int j = 0; j < joints(); ++j) {
+          const SlidingJoint& joint = model().joints[j];
+          const int dof = at_.system->mesh().joints[j].place;  // length control looks at its speed
+          if (dof >= 0) at_.state.v[dof] = joint.motion ? joint.motion->at(at_.state.t).speed : joint.speed;
+        }
+        const bool goes_on = settle_mesh();
+        at_.state.v.setZero();
+        if (!goes_on || at_.system.get() == before) return;
+        plan = held_at(at_, present_places(at_));
+      }
+    });
+  }
+
   // `slides`: the joints whose bodies look for their place.
   RestReport rest(const std::vector<bool>& slides) {
     return told([&] { look_for_rest(slides); });
@@ -327,7 +347,7 @@ RestReport find_start(MeshedState& at, const LengthControl& control,
   const bool any = std::find(slides.begin(), slides.end(), true) != slides.end();
   RestSearch search(at, control, interrupted);
   search.watching_snaps();
-  return any ? search.rest(slides) : search.held_equilibrium();
+  return any ? search.rest(slides) : search.held_start();
 }
 
 RestReport find_rest(MeshedState& at, const LengthControl& control,

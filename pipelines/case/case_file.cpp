@@ -258,13 +258,26 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   return result;
 }
 
+// All that is named by a "file", absolute.
+void add_named_files(const Json& json, const std::filesystem::path& directory,
+                     std::vector<std::filesystem::path>& files) {
+  if (json.is_object() && json.contains("file") && json["file"].is_string())
+    files.push_back(directory / json["file"].get<std::string>());
+  if (json.is_structured())
+    for (const Json& part : json) add_named_files(part, directory, files);
+}
+
 // The case that a JSON value is, once its shape and what it refers to have been checked; but for its text.
 CaseFileReport checked_case(Json& json, const Shape& shape, const std::filesystem::path& file,
                             Findings& findings) {
   std::optional<CaseFile> value;
-  put_in_tables(shape, json, "", std::filesystem::absolute(file).parent_path(), findings);
+  const std::filesystem::path directory = std::filesystem::absolute(file).parent_path();
+  std::vector<std::filesystem::path> files;
+  add_named_files(json, directory, files);
+  put_in_tables(shape, json, "", directory, findings);
   if (check_shape(shape, json, findings)) {
     value = read_case(json, file, findings);
+    value->files = std::move(files);
     check_across(json, *value, findings);
   }
   if (findings.has_errors()) value.reset();

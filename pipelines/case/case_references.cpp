@@ -164,7 +164,8 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   }
   check_division("output.every", "stored frames", c.output.every, c.analysis, most_frames, findings);
   check_division("analysis.step", "steps", c.analysis.step, c.analysis, most_steps, findings);
-  for (std::size_t i = 0; dynamic && i < c.output.cad_times.size(); ++i) {
+  const bool has_end = c.analysis.end_time > 0;  // else it is said what is wrong with it
+  for (std::size_t i = 0; dynamic && has_end && i < c.output.cad_times.size(); ++i) {
     if (c.output.cad_times[i] > c.analysis.end_time) {
       findings.error(child("output.cad.times", i), "is " + text_of(c.output.cad_times[i], all_digits) +
                                                        " s; must not be after analysis.end_time, " +
@@ -250,7 +251,7 @@ void check_across(const Json& json, const CaseFile& case_file, Findings& finding
   check_connectors(case_file, findings);
   check_times(json, case_file, findings);
   check_modes(case_file, findings);
-  check_solids(case_file, findings);
+  if (!findings.has_errors()) check_solids(case_file, findings);
   check_effects(json, case_file, findings);
   check_brep(case_file, findings);
 }

@@ -228,8 +228,9 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                         const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model,
                         Findings& findings) {
   if (resolved.analysis.is_explicit() && !resolved.sliding_joints.empty())
-    findings.error("analysis.integrator.type",
-                   "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"ida\"");
+    findings.error(
+        "analysis.integrator.type",
+        "\"rk4\" is for models without sliding joints; use \"generalized-alpha\", \"radau\" or \"ida\"");
   for (const CaseBody& body : resolved.bodies) {
     model.bodies.push_back({.name = body.name,
                             .mass = body.mass,

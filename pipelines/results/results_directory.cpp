@@ -44,6 +44,21 @@ void remove_file(const fs::path& file) {
 
 }  // namespace
 
+std::string taken_by_input(const fs::path& directory, const std::vector<fs::path>& inputs) {
+  const fs::path place = fs::weakly_canonical(directory);
+  for (const fs::path& input : inputs) {
+    std::error_code ignored;
+    const fs::path file = fs::weakly_canonical(input, ignored), name = file.filename();
+    const bool is_result = (file.parent_path() == place && is_of_a_run(name.string())) ||
+                           (file.parent_path() == place / frames_directory && is_a_frame(name.string()));
+    if (is_result)
+      return input.string() +
+             ": is an input of this run, and a name of its results, which would take its place; give another "
+             "--out, or the file another name";
+  }
+  return {};
+}
+
 ResultsDirectory::ResultsDirectory(fs::path path) : path_(std::move(path)) {
   std::error_code error;
   fs::create_directories(path_, error);

@@ -1,8 +1,14 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace nurbeam {
+
+/// Why a run cannot write its results into a directory, which need not be there: one of these files,
+/// absolute, lies there under a name that a run gives to its own; empty where none does.
+std::string taken_by_input(const std::filesystem::path& directory,
+                           const std::vector<std::filesystem::path>& inputs);
 
 /// A directory that one run at a time writes its results into, from construction to destruction. The lock is
 /// the operating system's on the open directory: it leaves no file behind and ends with the process.

@@ -48,9 +48,15 @@ std::vector<ProbePlace> probe_places(const BuiltModel& built) {
 std::optional<Diagnostic> fewer_modes_note(const CaseFile& c, const ModeTable& table) {
   const std::size_t asked = static_cast<std::size_t>(c.analysis.modes.count), found = table.rows.size();
   if (found >= asked) return {};
-  return Diagnostic{Severity::note, c.path.string() + ": analysis.modes.count",
-                    "is " + std::to_string(asked) + ", but the model has " + std::to_string(found) +
-                        (table.buckling ? " buckling factors" : " modes") + "; more elements have more"};
+  const std::string what = table.buckling ? "buckling factor" : "mode";
+  return Diagnostic{
+      Severity::note, c.path.string() + ": analysis.modes.count",
+      "is " + std::to_string(asked) + ", and there " +
+          (found == 1 ? "is 1 " + what : "are " + std::to_string(found) + " " + what + "s") +
+          (table.buckling
+               ? ": beyond that loads would move something by a beam's length, where buckling is no longer "
+                 "linear, or the mesh has no more; follow greater loads with \"load_steps\""
+               : "; more elements have more")};
 }
 
 std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain) {

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -130,8 +132,20 @@ int useful_jobs(int wanted, std::ostream& err) {
   return most;
 }
 
+constexpr std::array result_names{"study.csv",  "study.nc",  "study.json",
+                                  "study.html", "best.json", "best.step"};
+
 /// Makes the directory of the results, of a study that can run; an exit code.
-ExitCode make_directory(const StudyOptions& options, std::ostream& err) {
+ExitCode make_directory(const ReadyStudy& ready, const StudyOptions& options, std::ostream& err) {
+  for (const std::filesystem::path& input : {options.file, ready.study.case_file.value_or(options.file)}) {
+    const std::filesystem::path file = std::filesystem::weakly_canonical(input);
+    const bool is_result = std::ranges::count(result_names, file.filename().string()) > 0;
+    if (!is_result || file.parent_path() != std::filesystem::weakly_canonical(options.out)) continue;
+    err << "error: " << input.string()
+        << ": is an input of this study, and a name of its results, which would take its place; give another "
+           "--out, or the file another name\n";
+    return exit_bad_input;
+  }
   if (options.resume && !std::filesystem::exists(options.out / "study.rows")) {
     err << "error: " << (options.out / "study.rows").string()
         << ": does not exist: there is no study to resume; run without --resume\n";
@@ -159,7 +173,7 @@ void write_results(const ReadyStudy& ready, const StudyOptions& options, const S
 
 // Of a study that was here before.
 void remove_former_results(const std::filesystem::path& directory) {
-  for (const char* name : {"study.csv", "study.nc", "study.json", "study.html", "best.json", "best.step"}) {
+  for (const char* name : result_names) {
     std::error_code ignored;
     std::filesystem::remove(directory / name, ignored);
   }
@@ -223,7 +237,7 @@ int run_under_mpi(const StudyOptions& options, std::ostream& out, std::ostream& 
   std::ofstream silent;
   const std::optional<ReadyStudy> ready = read_study(options.file, first ? err : silent);
   ExitCode code = ready ? exit_done : exit_bad_input;
-  if (first && ready) code = make_directory(options, err);
+  if (first && ready) code = make_directory(*ready, options, err);
   if (!session.agreed(code == exit_done)) return code == exit_done ? exit_bad_input : code;
   if (!first) {
     serve_mpi(session, worker_command(options), ready->study.time_limit);
@@ -239,7 +253,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   if (started_by_mpi()) return run_under_mpi(options, out, err);
   const std::optional<ReadyStudy> ready = read_study(options.file, err);
   if (!ready) return exit_bad_input;
-  if (const ExitCode code = make_directory(options, err); code != exit_done) return code;
+  if (const ExitCode code = make_directory(*ready, options, err); code != exit_done) return code;
   const std::unique_ptr<StudyEngine> engine =
       make_process_pool(worker_command(options), useful_jobs(options.jobs, err), ready->study.time_limit);
   return run_at_one_rank(*ready, options, *engine, out, err);

@@ -82,12 +82,15 @@ Shape refinement() {
 }
 
 Shape quantity_of_interest() {
-  return object({{"name", name(), "heads its column", required},
-                 {"value", any_text(),
-                  "an expression over histories and variables: max(trolley.speed), at(end, cable.length), "
-                  "time(leaves, trolley)",
-                  required},
-                 {"unit", any_text(), "for the tables; none when omitted"}});
+  return object(
+      {{"name", name(), "heads its column", required},
+       {"value", any_text(),
+        "an expression over histories and variables: max(trolley.speed), at(end, cable.length), "
+        "time(leaves, trolley)",
+        required},
+       {"unit", any_text(),
+        "heads its column in tables and plots; it converts nothing: the value is made of SI units, so write "
+        "1e3 * at(end, tip.x) for \"mm\"; none when omitted"}});
 }
 
 Shape counted(const char* what, double least) {

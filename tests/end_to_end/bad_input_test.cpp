@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,30 @@ void expect_stopped(const CaseRun& run, const std::vector<std::string>& parts) {
 
 TEST(BadInput, AMissingCaseFile) {
   expect_refused(test::run_file("absent.json"), {"absent.json: cannot be read"});
+}
+
+// The case, a table and a drawing under names that results have.
+TEST(BadInput, ResultsDoNotTakeThePlaceOfInputs) {
+  const TemporaryDirectory directory;
+  const std::string text = R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.01 },
+                "material": "steel", "elements": { "count": 2 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "clamped" }],
+    "loads": [{ "beam": "b", "at": "end", "force": [0, 0, -1], "time": { "file": "histories.csv" } }],
+    "analysis": { "end_time": 0.01, "step": 0.001 } })";
+  const auto refused = [&](const std::string& case_name, const std::string& input) {
+    std::ostringstream out, err;
+    const auto file = directory.write(case_name, text);
+    EXPECT_EQ(
+        run_command_line({"run", file.string(), "--quiet", "--out", directory.path().string()}, out, err), 2);
+    EXPECT_NE(err.str().find(input + ": is an input of this run"), std::string::npos) << err.str();
+    std::ifstream left(file);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(left), {}), text);
+  };
+  directory.write("histories.csv", "0, 0\n0.01, 1\n");
+  refused("case.json", "histories.csv");
+  refused("run.json", "json");
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "results.nc"));
 }
 
 TEST(BadInput, AnEmptyCaseFile) {

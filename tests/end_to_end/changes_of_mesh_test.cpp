@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "tests/end_to_end/case_run.h"
 
@@ -45,6 +46,24 @@ TEST(ChangesOfMesh, DoNotKickABodyOnABentRail) {
   ASSERT_EQ(fine.rows.size(), smooth.rows.size()) << fine.messages;
   EXPECT_LT(kick(coarse, smooth), 2);
   EXPECT_LT(kick(fine, smooth), 0.5);
+}
+
+// The mesh is settled before the equilibrium is found, wherever between nodes the body begins.
+TEST(ChangesOfMesh, LeaveAHeldBodyAtRestFromTheStart) {
+  for (const char* place : {"0.15", "0.163", "0.17", "0.18", "0.19", "0.205", "0.212", "0.22"}) {
+    const CaseRun run = run_rail(
+        {std::string(
+             "sliding_joints[0]={\"body\": \"body\", \"beam\": \"rail\", \"release\": 1, \"at\": {\"fraction\": ") +
+             place + "}}",
+         "analysis={\"end_time\": 0.2, \"initial\": \"equilibrium\"}", "output.every=10 ms",
+         "beams[0].elements.count=20"});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_FALSE(run.says("warning")) << run.messages;
+    for (std::size_t i = 0; i < run.rows.size(); ++i) {
+      EXPECT_NEAR(joint_force(run, i), 0.8 * 9.81, 1e-6) << place << " " << i;
+      EXPECT_LE(run.value(i, "energy.kinetic [J]"), 1e-15) << place << " " << i;
+    }
+  }
 }
 
 }  // namespace

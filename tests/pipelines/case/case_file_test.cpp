@@ -352,6 +352,8 @@ TEST_F(CaseFileTest, TimeTablesMustIncrease) {
   expect_error({"loads[0].time=[[0, 1], [1, 0], [1, 2]]"}, "loads[0].time[2]", {"must increase"}, full_case);
   expect_error({"loads[0].time=[[0, 1, 2]]"}, "loads[0].time[0]", {"[time, value]"}, full_case);
   expect_error({"output.cad.times=[0, 2]"}, "output.cad.times[1]", {"2 s", "0.7 s"}, full_case);
+  const CaseFileReport endless = read(full_case, {"analysis.end_time=1 sek"});
+  EXPECT_EQ(endless.diagnostics.size(), 1U) << messages(endless);
   const CaseFileReport negative = read(full_case, {"output.cad.times=[-1]"});
   EXPECT_FALSE(negative.value);
   EXPECT_EQ(messages(negative).find("is empty"), std::string::npos) << messages(negative);
@@ -594,8 +596,8 @@ TEST_F(CaseFileTest, WhatChangesNothingIsWarnedOf) {
   EXPECT_TRUE(has(warned({R"(output.cad={"schema": "ap242", "formats": ["iges", "step-source"]})"}),
                   "output.cad.schema | has no effect"));
   EXPECT_FALSE(has(warned({R"(output.cad={"schema": "ap242"})"}), "output.cad.schema"));
-  EXPECT_FALSE(has(warned({R"(output.cad={"schema": "ap242", "formats": ["iges", "step"]})"}),
-                   "output.cad.schema"));
+  EXPECT_FALSE(
+      has(warned({R"(output.cad={"schema": "ap242", "formats": ["iges", "step"]})"}), "output.cad.schema"));
   const auto guided = [](const char* moves) {
     return std::string(
                R"(supports[0]={"beam": "cable", "at": "start", "type": "guided", "direction": [2, 0, 0],)") +

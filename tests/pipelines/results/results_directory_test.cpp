@@ -36,6 +36,18 @@ TEST(ResultsDirectory, IsMadeWithItsParentsAndTakenByOneAtATime) {
   EXPECT_TRUE(std::filesystem::is_empty(path));
 }
 
+TEST(ResultsDirectory, IsNotTakenWhereAnInputHasANameOfItsFiles) {
+  const TemporaryDirectory temporary;
+  const std::filesystem::path &place = temporary.path(), other = place / "other";
+  for (const char* name : {"run.json", "deformed.step", "histories.csv", "frames/beams_000000.vtu"}) {
+    EXPECT_TRUE(directory_holds(taken_by_input(place, {place / "cable.step", place / name}),
+                                (place / name).string() + ": is an input of this run"));
+    EXPECT_TRUE(directory_holds(taken_by_input(other / "..", {place / name}), "--out"));
+    EXPECT_EQ(taken_by_input(other, {place / name}), "");
+  }
+  EXPECT_EQ(taken_by_input(place, {place / "case.json", place / "results.csv"}), "");
+}
+
 TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
   const TemporaryDirectory temporary;
   std::filesystem::create_directory(temporary.path() / "frames");
