@@ -42,11 +42,12 @@ struct StaticReport {
 /// of the forces along it lets it: that of something soft only as long as it is as drawn, a straight wire.
 /// When that does not converge, moves a coordinate by more than its coordinate_scale(), or against where the
 /// tangent at the start leads, the load is applied in adaptive increments under the same bounds, so that the
-/// branch of equilibria that starts at `state` is followed. An equilibrium that is not stable (stability.h) is none: it
-/// is left along its unstable direction; but where loads have no energy and nothing stable is found, one that
-/// diverges is better than nothing. Where no increment converges (a straight or slack cable without tension
-/// has a singular tangent, a snap-through no equilibrium nearby) a load beyond is reached by proximal steps
-/// M(q)(q - q_k)/tau^2 - f + G'lambda = 0 with growing tau, which decrease the potential energy.
+/// branch of equilibria that starts at `state` is followed. An equilibrium that is not stable (stability.h)
+/// is none: it is left along its unstable direction; but where loads have no energy and nothing stable is
+/// found, one that diverges is better than nothing. Where no increment converges (a straight or slack cable
+/// without tension has a singular tangent, a snap-through no equilibrium nearby) a load beyond is reached by
+/// proximal steps M(q)(q - q_k)/tau^2 - f + G'lambda = 0 with growing tau, which decrease the potential
+/// energy.
 ///
 /// Converged means: no residual is larger than `tolerance` times the largest force (the load or G'lambda,
 /// compared as work over coordinate_scale()) or, failing that, than its own round-off. v and a are zero on

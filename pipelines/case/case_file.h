@@ -296,7 +296,7 @@ struct CaseLaw {
 /// A case file, resolved to SI units and absolute paths, valid as far as the file alone can tell.
 struct CaseFile {
   std::filesystem::path path;
-  std::string json = {};  ///< as read, overrides applied, without comments and spaces
+  std::string json = {};                          ///< as read, overrides applied, without comments and spaces
   std::vector<std::filesystem::path> files = {};  ///< absolute: drawings and tables that it names
   std::string name;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);

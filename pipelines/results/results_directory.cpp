@@ -45,7 +45,7 @@ void remove_file(const fs::path& file) {
 }  // namespace
 
 std::string taken_by_input(const fs::path& directory, const std::vector<fs::path>& inputs) {
-  const fs::path place = fs::weakly_canonical(directory);
+  const fs::path place = fs::weakly_canonical(directory / "results.nc").parent_path();
   for (const fs::path& input : inputs) {
     std::error_code ignored;
     const fs::path file = fs::weakly_canonical(input, ignored), name = file.filename();

@@ -302,7 +302,7 @@ int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& op
     summary.inputs.push_back({c.path, in_file ? sha256_of_file(c.path) : sha256_of_text(c.json)});
     for (const auto& file : report.value->inputs) summary.inputs.push_back({file, sha256_of_file(file)});
     std::vector<std::filesystem::path> inputs = c.files;
-    if (in_file) inputs.push_back(std::filesystem::absolute(c.path));
+    if (in_file) inputs.insert(inputs.begin(), std::filesystem::absolute(c.path));
     if (const std::string taken = taken_by_input(options.out, inputs); !taken.empty()) {
       messages << "error: " << taken << "\n";
       return exit_bad_input;

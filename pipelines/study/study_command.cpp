@@ -140,7 +140,9 @@ ExitCode make_directory(const ReadyStudy& ready, const StudyOptions& options, st
   for (const std::filesystem::path& input : {options.file, ready.study.case_file.value_or(options.file)}) {
     const std::filesystem::path file = std::filesystem::weakly_canonical(input);
     const bool is_result = std::ranges::count(result_names, file.filename().string()) > 0;
-    if (!is_result || file.parent_path() != std::filesystem::weakly_canonical(options.out)) continue;
+    if (!is_result ||
+        file.parent_path() != std::filesystem::weakly_canonical(options.out / "study.csv").parent_path())
+      continue;
     err << "error: " << input.string()
         << ": is an input of this study, and a name of its results, which would take its place; give another "
            "--out, or the file another name\n";

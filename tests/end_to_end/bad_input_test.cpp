@@ -74,16 +74,17 @@ TEST(BadInput, ResultsDoNotTakeThePlaceOfInputs) {
     "analysis": { "end_time": 0.01, "step": 0.001 } })";
   const auto refused = [&](const std::string& case_name, const std::string& input) {
     std::ostringstream out, err;
+    const test::CapturedErrors errors;
     const auto file = directory.write(case_name, text);
     EXPECT_EQ(
         run_command_line({"run", file.string(), "--quiet", "--out", directory.path().string()}, out, err), 2);
-    EXPECT_NE(err.str().find(input + ": is an input of this run"), std::string::npos) << err.str();
+    EXPECT_NE(errors.text().find(input + ": is an input of this run"), std::string::npos) << errors.text();
     std::ifstream left(file);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(left), {}), text);
   };
   directory.write("histories.csv", "0, 0\n0.01, 1\n");
   refused("case.json", "histories.csv");
-  refused("run.json", "json");
+  refused("run.json", "run.json");
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "results.nc"));
 }
 

@@ -106,19 +106,17 @@ function axes(svg, width, [start, end], [low, high], x_unit) {
       element('svg:text', { x: left - 6, y, dy: '0.35em', 'text-anchor': 'end' }, y_labels.texts[i]));
   });
   const unit = scaled_unit(x_labels.exponent, x_unit), xs = x_ticks.values.map(x_of), last = xs.length - 1;
-  const at_end = xs[last] > width - right - 12;
+  const at_end = xs[last] > width - right - 12, digit = 6.5;
+  const room = width - 2 - xs[last] - (x_labels.texts[last].length / 2 + 1) * digit;
+  const fits = at_end || room >= unit.length * digit;  // else the unit takes the place of the last number
   xs.forEach((at, i) => {
     const x = at.toFixed(1), ends = at_end && i === last;
     parts.push(element('svg:line', { class: 'tick', x1: x, x2: x, y1: height - bottom, y2: height - bottom + 4 }),
       element('svg:text', { x: ends ? width - 2 : x, y: height - 7, 'text-anchor': ends ? 'end' : 'middle' },
-        x_labels.texts[i] + (ends ? ` ${unit}` : '')));
+        i < last || fits ? x_labels.texts[i] + (ends ? ` ${unit}` : '') : ''));
   });
-  if (!at_end && unit) {
-    // Behind the last number where there is room, else between it and the one before.
-    const digit = 7, room = width - 2 - xs[last] - (x_labels.texts[last].length / 2 + 1) * digit;
-    const fits = room >= unit.length * digit || last === 0;
-    parts.push(element('svg:text', { x: fits ? width - 2 : ((xs[last - 1] + xs[last]) / 2).toFixed(1), y: height - 7,
-      'text-anchor': fits ? 'end' : 'middle' }, unit));
+  if (!at_end) {
+    parts.push(element('svg:text', { x: width - 2, y: height - 7, 'text-anchor': 'end' }, unit));
   }
   if (y_labels.exponent) {
     parts.push(element('svg:text', { x: 2, y: height - 7 }, scaled_unit(y_labels.exponent, '')));

@@ -15,10 +15,9 @@ namespace {
 TEST(StraightWire, HangsAfterAsManyStepsOnAnyMesh) {
   const double area = std::numbers::pi * 1e-4, second_moment = std::numbers::pi * 1e-8 / 4;
   for (const int elements : {100, 500, 1000, 2000, 3000}) {
-    BeamModel model =
-        testing::one_beam({testing::line_cubic({0, 0, 0}, {1000, 0, 0})}, 2,
-                          BeamProperties(1e11 * area, 1e11 * second_moment, 7800 * area), elements,
-                          {{0, false}, {1000, false}});
+    BeamModel model = testing::one_beam({testing::line_cubic({0, 0, 0}, {1000, 0, 0})}, 2,
+                                        BeamProperties(1e11 * area, 1e11 * second_moment, 7800 * area),
+                                        elements, {{0, false}, {1000, false}});
     model.gravity = {0, -9.81, 0};
     const BeamSystem system(model);
     State state = drawn_state(system);
