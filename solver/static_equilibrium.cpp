@@ -215,8 +215,10 @@ class EquilibriumSearch {
     const bool is_loaded = sizes_.applied_force(trial) > 0;
     if (quality.acceptable && !is_loaded) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
-    if (first == FirstStep::bounded && (outcome.singular_at_start || !take_bounded_step(trial)))
-      return outcome;
+    if (first == FirstStep::bounded) {
+      const bool bounds = !outcome.converged && !outcome.singular_at_start && take_bounded_step(trial);
+      if (!bounds) return {.residual_norm = outcome.residual_norm};  // as the full one went
+    }
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
       const auto found = improved(x, quality.allowed, strategy, iterations, outcome);
