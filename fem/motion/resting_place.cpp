@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -74,7 +75,7 @@ class RestSearch {
       MeshPlan plan = at_.system->mesh().plan;
       constexpr int most_rounds = 10;
       for (int round = 0; round < most_rounds && hold_in_equilibrium(std::move(plan)); ++round) {
-        const BeamSystem* const before = at_.system.get();
+        const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
         for (int j = 0; j < joints(); ++j) {
           const SlidingJoint& joint = model().joints[j];
           const int dof = at_.system->mesh().joints[j].place;  // length control looks at its speed
@@ -82,7 +83,7 @@ class RestSearch {
         }
         const bool goes_on = settle_mesh();
         at_.state.v.setZero();
-        if (!goes_on || at_.system.get() == before) return;
+        if (!goes_on || at_.system == before) return;
         plan = held_at(at_, present_places(at_));
       }
     });
@@ -295,10 +296,10 @@ class RestSearch {
         const int dof = at_.system->mesh().joints[j].place;
         if (dof >= 0) at_.state.v[dof] = parts[j];  // length control looks at it
       }
-      const BeamSystem* const before = at_.system.get();
+      const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
       if (!settle_mesh() || !goes_on(meeting_bodies(at_))) return false;
       at_.state.v.setZero();
-      if (at_.system.get() != before && !hold_in_equilibrium(held_at(at_, present_places(at_)))) return false;
+      if (at_.system != before && !hold_in_equilibrium(held_at(at_, present_places(at_)))) return false;
     }
     return true;
   }
