@@ -52,23 +52,38 @@ class BodyOnSection {
     ConstraintTerms<3> terms = without_offset(at, state, y);
     const auto x = section_.coordinates(at, state.q);
     const auto& here = section_.here(at, x);
-    const Eigen::Vector3d e = arm(here.template triad<double>(x));
-    terms.value += e;
-    for (int k = 0; k < 3; ++k) {
-      const auto on = here.template force<double>(x, Vector3<double>(e.cross(Eigen::Vector3d::Unit(k))));
-      for (int i = 0; i < Section::size; ++i) terms.gradient(k, column_[i]) += on[i];
+    constexpr int n = Section::size;
+    const auto once = twist::variables<n, double>(x);
+    if (!y) {
+      add_arm(arm(here.template triad<Dual<n>>(once)), terms);
+      return terms;
     }
-    if (!y) return terms;
-    // y . e changes by (e x y) . dphi.
-    using T = Dual<1>;
-    for (int j = 0; j < Section::size; ++j) {
-      const auto moved = twist::moving<double, Section::size>(
-          x, Eigen::Matrix<double, Section::size, 1>(Eigen::Matrix<double, Section::size, 1>::Unit(j)));
-      const Vector3<T> now = arm(here.template triad<T>(moved)), along = y->template cast<T>();
-      const auto on = here.template force<T>(moved, Vector3<T>(now.cross(along)));
-      for (int i = 0; i < Section::size; ++i) terms.hessian(column_[i], column_[j]) += on[i].d[0];
-    }
+    const Vector3<Dual<n, Dual<n>>> e =
+        arm(here.template triad<Dual<n, Dual<n>>>(twist::variables<n, Dual<n>>(once)));
+    add_arm({e[0].value, e[1].value, e[2].value}, terms);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < 3; ++k) terms.hessian(column_[i], column_[j]) += (*y)[k] * e[k].d[i].d[j];
     return terms;
+  }
+
+  /// (3) v . H v of each row, of the velocities of its coordinates.
+  Eigen::Vector3d curvature(const MeshedBeams<3>& at, const State& state,
+                            const Eigen::Matrix<double, ConstraintTerms<3>::size, 1>& v) const {
+    const auto x = section_.coordinates(at, state.q);
+    std::decay_t<decltype(x)> rates;
+    for (int i = 0; i < Section::size; ++i) rates[i] = v[column_[i]];
+    const auto once = twist::moving<double, Section::size>(x, rates);
+    const auto twice = twist::moving<Dual<1>, Section::size>(once, rates.template cast<Dual<1>>());
+    const auto e = arm(section_.here(at, x).template triad<Dual<1, Dual<1>>>(twice));
+    Eigen::Vector3d curvature(e[0].d[0].d[0], e[1].d[0].d[0], e[2].d[0].d[0]);
+    if constexpr (on_point)
+      for (int k = 0; k < rows; ++k) {
+        const Eigen::Vector3d unit = Eigen::Vector3d::Unit(k);
+        const ConstraintTerms<3>::Multipliers y = unit;
+        curvature[k] += v.dot(point_->terms(at, state, &y).hessian * v);
+      }
+    return curvature;
   }
 
  private:
@@ -77,6 +92,12 @@ class BodyOnSection {
   template <class T>
   Vector3<T> arm(const SectionTriad<T>& section) const {
     return arm_[0] * section.d1 + arm_[1] * section.d2;
+  }
+  void add_arm(const Vector3<Dual<Section::size>>& e, ConstraintTerms<3>& terms) const {
+    for (int k = 0; k < 3; ++k) {
+      terms.value[k] += e[k].value;
+      for (int i = 0; i < Section::size; ++i) terms.gradient(k, column_[i]) += e[k].d[i];
+    }
   }
   ConstraintTerms<3> without_offset(const MeshedBeams<3>& at, const State& state,
                                     const ConstraintTerms<3>::Multipliers* y) const {

@@ -374,10 +374,13 @@ Eigen::VectorXd Assembly<D>::constraint_curvature(const State& state) const {
           Eigen::Matrix<double, ConstraintTerms<D>::size, 1>::Zero();
       for (std::size_t k = 0; k < block.block.dofs.size(); ++k)
         if (block.block.dofs[k] >= 0) v[static_cast<Eigen::Index>(k)] = state.v[block.block.dofs[k]];
-      for (int r = 0; r < c.rows; ++r) {
-        const typename ConstraintTerms<D>::Multipliers unit = ConstraintTerms<D>::Multipliers::Unit(r);
-        curvature[block.row + r] = v.dot(c.terms(at, state, &unit).hessian * v);
-      }
+      if constexpr (requires { c.curvature(at, state, v); })
+        curvature.segment(block.row, c.rows) = c.curvature(at, state, v);
+      else
+        for (int r = 0; r < c.rows; ++r) {
+          const typename ConstraintTerms<D>::Multipliers unit = ConstraintTerms<D>::Multipliers::Unit(r);
+          curvature[block.row + r] = v.dot(c.terms(at, state, &unit).hessian * v);
+        }
     }
     if constexpr (requires { c.acceleration(state.t); })
       curvature.segment(block.row, c.rows) += c.acceleration(state.t);
