@@ -74,6 +74,13 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
       [&](const BeamSystem& to) { return projected(*at.system, at.state, energy, to); });
 }
 
+std::optional<ChangedMesh> changed_drawing(const MeshedState& at, const NextPlan& next) {
+  NeighbourSolvers solvers;
+  return changed(
+      at, next, false, nullptr,
+      [&](const BeamSystem& to) { return projected_like(*at.system, at.state, to, {}, solvers); });
+}
+
 std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
   return go_on_there(at, changed_mesh(at, next, at_rest));
 }

@@ -32,6 +32,9 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next,
                                         const SystemEnergy& energy);
 
+/// Of a motion that has yet to begin as it is drawn: the shape stays, whatever the energy.
+std::optional<ChangedMesh> changed_drawing(const MeshedState& at, const NextPlan& next);
+
 /// Goes on there.
 [[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
 /// The same as a neighbouring motion, whose energy has been kept so, and is one of this system

@@ -48,7 +48,9 @@ struct Run {
     if (!observer.follower) return;
     if (change(own)) follow(change);
   }
-  /// New integrator from the present state, with consistent accelerations.
+  /// Whether it has not moved from its drawing yet.
+  bool is_as_drawn() const { return report.steps == 0 && !options.start_from_equilibrium; }
+  /// New integrator from the present state, with velocities and accelerations that are consistent.
   bool restart();
   /// After a change of the mesh or its charts, which has left all but these unknowns as they were
   /// (changed_unknowns; none: any): accelerations are carried over but for what is out of balance.

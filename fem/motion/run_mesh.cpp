@@ -57,7 +57,8 @@ bool change_due_mesh(Run& run) {
     if (next.change == MeshChange::none) return false;
     MotionSums sums = motion_sums(*run.at.system, run.at.state, run.model->joints[next.joint].beam);
     RunEvent event = event_before(run.at, kind_of(next.change), next.joint, sums);
-    std::optional<ChangedMesh> changed = changed_mesh(run.at, next, sums.energy);
+    std::optional<ChangedMesh> changed =
+        run.is_as_drawn() ? changed_drawing(run.at, next) : changed_mesh(run.at, next, sums.energy);
     if (changed) {
       sums = carried_sums(sums, *run.at.system, run.at.state, *changed->now.system, changed->now.state,
                           event.beam);
