@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/motion/crossing.h"
 #include "fem/system/observables.h"
 #include "fem/system/with_assembly.h"
 
@@ -111,9 +112,17 @@ double integral(const StepPath& step, const Rate& rate) {
   return h * powers.partialPivLu().solve(means).dot(rates);
 }
 
+// By Simpson's rule: the sum over halves and that over the whole, which are of second order, extrapolated.
+double load_work_by_halves(const BeamSystem& system, const State& from, const State& to) {
+  const State middle = between(from, to, 0.5);
+  const double halves = load_work(system, from, middle) + load_work(system, middle, to);
+  return halves + (halves - load_work(system, from, to)) / 3;
+}
+
 double taken_in_step(const BeamSystem& system, const StepPath& step, const StepPath& forces) {
-  const double by_loads =
-      along(step, [&](const State& from, const State& to) { return load_work(system, from, to); });
+  const double by_loads = along(step, [&](const State& from, const State& to) {
+    return step.is_cubic ? load_work_by_halves(system, from, to) : load_work(system, from, to);
+  });
   if (!has_prescribed_motions(system.model()) || !(step.after.t > step.before.t)) return by_loads;
   if (step.within.empty()) return by_loads + motion_work(system, forces.before, forces.after);
   return by_loads + integral(forces, [&](const State& state) { return motion_power(system, state); });

@@ -15,6 +15,9 @@ struct StepPath {
   const State& before;
   const State& after;
   std::span<const State> within = {};
+  /// Whether the cubic between them is nearer to the motion than the mean of two, which is that of a method
+  /// whose own books are by the trapezoidal rule.
+  bool is_cubic = false;
 };
 
 /// Whether places are moved from outside.

@@ -15,6 +15,9 @@ namespace nurbeam {
 
 namespace {
 
+// Whether states between those of a step are worth it: see StepPath.
+bool is_cubic(const Run& run) { return !std::holds_alternative<GeneralizedAlpha>(run.options.integrator); }
+
 // A step of the integrator of at most that length. Under error control one that creates energy, as a wrong
 // root of a snap does, counts as failed.
 StepReport step_keeping_energy(Run& run, const IntegratorHistory& history, double step) {
@@ -22,7 +25,7 @@ StepReport step_keeping_energy(Run& run, const IntegratorHistory& history, doubl
   const State& before = run.at.state;
   StepReport taken = run.integrator->advance(step);
   for (int i = 0; taken.status == StepStatus::converged && !run.options.step; ++i) {
-    const StepPath path{before, run.integrator->state(), run.integrator->within()};
+    const StepPath path{before, run.integrator->state(), run.integrator->within(), is_cubic(run)};
     if (!run.account.creates_energy(*run.at.system, path, run.restarted, run.report)) break;
     const StepReport refused = taken;
     run.integrator->restore(before, history);
@@ -267,7 +270,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   run.last_record = {at.state.t, length, static_cast<int>(run.report.newton_iterations - iterations),
                      taken.rejected};
   run.steps.push_back(run.last_record);
-  book(run, {before, at.state, states_within(run, length)}, first, step_before);
+  book(run, {before, at.state, states_within(run, length), is_cubic(run)}, first, step_before);
   return pass(run, landing, before);
 }
 

@@ -117,5 +117,20 @@ TEST(EnergyFromNowhere, EndsTheRunThatItMakesMeaningless) {
   EXPECT_LT(run.last("time [s]"), 0.5);
 }
 
+// In the first step all energy is the load's, whose work no mean of two forces gives.
+TEST(EnergyFromNowhere, IsNotThatOfALoadOnWhatRests) {
+  const TemporaryDirectory directory;
+  const CaseRun run = run_file(directory.write("pulse.json", R"({"nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{"name": "b", "axis": {"polyline": [[0, 0, 0], [2, 0, 0]]},
+      "section": {"rectangle": [0.03, 0.02]},
+      "material": {"density": 1000, "youngs_modulus": 2e9, "damping": 1e-4}, "elements": {"count": 8}}],
+    "supports": [{"beam": "b", "at": "start", "type": "clamped"}],
+    "loads": [{"beam": "b", "at": {"fraction": 0.5}, "force": [0, 10000, 0],
+               "time": [[0.1003, 0], [0.1004, 1], [0.1005, 0]]}],
+    "analysis": {"integrator": {"type": "ida"}, "end_time": 0.12}, "output": {"report": false}})"));
+  EXPECT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("energy.total [J]"), 0, 1e-3 * run.last("energy.input [J]"));
+}
+
 }  // namespace
 }  // namespace nurbeam::test

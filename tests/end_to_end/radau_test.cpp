@@ -38,6 +38,24 @@ TEST(RadauRun, ABodyThatRubsTakesLongStepsDownASlope) {
               1e-3);
 }
 
+// 1.2 kg are pushed by 200 N that come and go in 10 ms: 1 N s.
+const char* const pushed_bar = R"({"nurbeam": 1, "gravity": [0, 0, 0],
+  "beams": [{"name": "bar", "axis": {"polyline": [[0, 0, 0], [2, 0, 0]]},
+    "section": {"rectangle": [0.03, 0.02]}, "material": {"density": 1000, "youngs_modulus": "2 GPa"},
+    "elements": {"count": 8}}],
+  "loads": [{"beam": "bar", "force_per_length": [0, 100, 0],
+             "time": [[0.1, 0], [0.105, 1], [0.11, 0]]}],
+  "analysis": {"end_time": 0.2}, "output": {"report": false}})";
+
+TEST(RadauRun, WorkOfLoadsIsOfTheOrderOfTheMotion) {
+  for (const std::string& step : {"null", "0.005", "0.01"}) {
+    const CaseRun run = run_text(pushed_bar, {radau, "analysis.step=" + step});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_NEAR(run.last("energy.input [J]"), 1 / 2.4, 1e-9) << step;
+    EXPECT_NEAR(run.last("energy.total [J]"), 0, 1e-9) << step;
+  }
+}
+
 TEST(RadauRun, ABodyThatReboundsFromAStopIsWhereItsArcsLead) {
   const double a = gravity / 2, hit = std::sqrt(2 * 2 / a), speed = a * hit, end = 1.6;
   for (const char* analysis : {R"({"end_time": 1.6})", R"({"end_time": 1.6, "step": 0.1})"}) {
