@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "solver/tangent_matrix.h"
 
@@ -14,28 +16,45 @@ State resting(const SecondOrderSystem& system, State state) {
   return state;
 }
 
-double ForceSizes::applied_force(const State& state) const {
+ForceSizes::Applied ForceSizes::applied(const State& state) const {
   State free = resting(system_, state);
   const Eigen::VectorXd with_multipliers = dynamics(free);
   free.lambda.setZero();
-  const Eigen::VectorXd without_multipliers = dynamics(free);
+  const double held = work(with_multipliers - dynamics(free));
   free.load = 0;
   const Eigen::VectorXd unloaded = dynamics(free);
   free.load = 1;
-  const Eigen::VectorXd loaded = dynamics(free);
-  return std::max(work(loaded - unloaded), work(with_multipliers - without_multipliers));
+  const double load = work(dynamics(free) - unloaded);
+  if (load > 0) return {true, std::max(load, held)};
+  return {false, held > 0 && held > round_off(free) ? held : 0};
 }
 
 double ForceSizes::largest_force(const State& state) const {
-  if (const double applied = applied_force(state); applied > 0) return applied;
+  const Applied found = applied(state);
+  if (found.by_load) return found.largest;
   State free = resting(system_, state);
   free.lambda.setZero();
   free.load = 0;
   const double internal = work(dynamics(free));
   free.load = 1;
-  const double held = work(dynamics(towards_constraints(free)));
-  if (held > 10 * internal) return held;  // beside it the other is round-off
+  const double moved = work(dynamics(towards_constraints(free)));
+  // Beside it the other is round-off.
+  const double largest = std::max(found.largest, moved > 10 * internal ? moved : 0);
+  if (largest > 0) return largest;
   return internal > 0 ? internal : 1;
+}
+
+// Of forces that cancel in what is stiff.
+double ForceSizes::round_off(const State& state) const {
+  constexpr double part = 8 * std::numeric_limits<double>::epsilon();
+  const Eigen::SparseMatrix<double> stiffness = tangent_matrix(system_, state, {.stiffness = 1});
+  const Eigen::Index n = scale_.size();
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index column = 0; column < n; ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(stiffness, column); entry; ++entry)
+      if (entry.row() < n)
+        forces[entry.row()] += std::abs(entry.value()) * (std::abs(state.q[column]) + scale_[column]);
+  return part * work(forces);
 }
 
 // What is held moved by G'g to where it is to be: of the size of what the constraints ask for.

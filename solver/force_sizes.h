@@ -12,12 +12,19 @@ class ForceSizes {
  public:
   explicit ForceSizes(const SecondOrderSystem& system) : system_(system), scale_(system.coordinate_scale()) {}
 
-  /// Of the full load and of what the constraints do.
-  double applied_force(const State& state) const;
-  /// That, else of the unbalanced internal force, else of that which moved supports would make, else 1.
+  /// Of the full load and of what the constraints do; where these alone do something, 0 if that is round-off.
+  double applied_force(const State& state) const { return applied(state).largest; }
+  /// That, and without a load what moved supports would make if that is more; else the unbalanced internal
+  /// force, else 1.
   double largest_force(const State& state) const;
 
  private:
+  struct Applied {
+    bool by_load;
+    double largest;
+  };
+  Applied applied(const State& state) const;
+  double round_off(const State& state) const;
   State towards_constraints(State state) const;
   Eigen::VectorXd dynamics(const State& state) const;
   double work(const Eigen::VectorXd& force) const {
