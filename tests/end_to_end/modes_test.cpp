@@ -129,8 +129,7 @@ TEST(Modes, OfWhichThereAreFewerThanAskedForAreCounted) {
   const std::size_t found = left.run["modes"].size();
   EXPECT_LT(found, 50u);
   const std::string note = "note: " + (left.directory.path() / "case.json").string() +
-                           ": analysis.modes.count: is 50, and there are " + std::to_string(found) +
-                           " modes";
+                           ": analysis.modes.count: is 50, and there are " + std::to_string(found) + " modes";
   EXPECT_NE(left.messages.find(note), std::string::npos) << left.messages;
 }
 
