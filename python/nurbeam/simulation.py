@@ -137,7 +137,7 @@ class Simulation:
     def set_load(self, load: Load | int, value: npt.ArrayLike) -> None:
         """Gives a load another value from now on, a vector in world coordinates: three numbers, in N for a force, N m for
         a moment, N/m for a force per length; texts with units are for models alone. `load` is what `model.add_load` has
-        returned, or its number among the loads of the case."""
+        returned, or its number among the loads of the case; where it is on a beam of several chains it changes on each."""
         number: Any = getattr(load, "number", load)
         try:
             number = operator.index(number)

@@ -115,6 +115,62 @@ def test_a_load_changed_between_steps_acts_from_then_on():
     assert np.ptp(energy) < 0.02 * changed.histories["energy.bending"].max()
 
 
+def pulled_rod():
+    """On a pin and a guided support that pulls it, with a load across it: the model and that load."""
+    model = nb.Model(gravity=[0, 0, 0])
+    rod = model.add_beam([[0, 0, 0], [2, 0, 0]], section=nb.Circle(radius=0.01), material="steel", elements=8)
+    model.add_support(rod, at="start", type="pinned")
+    model.add_support(rod, at="end", type="guided", direction=[1, 0, 0], force=500)
+    load = model.add_load(rod, at={"fraction": 0.5}, force=[0, 0, -10])
+    model.add_probe("middle", rod, {"fraction": 0.5})
+    return model, load
+
+
+def test_a_changed_load_is_that_of_the_case_and_no_other_force():
+    steps = {"type": "static", "load_steps": [1, 2]}
+    model, load = pulled_rod()
+    simulation = model.simulate(**steps)
+    simulation.step()
+    simulation.set_load(load, [0, 0, -20])
+    changed = simulation.run()[-1]
+    model.case["loads"][0]["force"] = [0, 0, -20]
+    assert changed["middle.z"] == pytest.approx(model.run(**steps)[-1]["middle.z"], rel=1e-6)
+
+
+def test_a_checkpoint_changes_the_loads_of_the_case_and_no_other_force():
+    model, load = pulled_rod()
+    run = {"end_time": 0.02, "step": 1e-4, "initial": "equilibrium"}
+    simulation = model.simulate(**run)
+    simulation.run_until(0.005)
+    simulation.set_load(load, [0, 0, -20])
+    simulation.run_until(0.01)
+    rest = model.simulate(**run, start=simulation.checkpoint).run()
+    assert simulation.run()[-1]["middle.z"] == rest[-1]["middle.z"]
+
+
+def test_a_changed_load_of_several_beams_is_changed_on_each(tmp_path):
+    rods = [nb.Curve.line([0, y, 0], [1, y, 0]) for y in (0, 1)]
+    nb.write(tmp_path / "rods.step", rods)
+    model = nb.Model(gravity=[0, 0, 0])
+    net = model.add_beam({"file": str(tmp_path / "rods.step"), "chains": "all"}, section=nb.Circle(radius=0.01),
+                         material="steel", elements=4, name="net")
+    model.add_support(net, at="start", type="clamped")
+    of_all = model.add_load(net, at="end", force=[0, 0, -1])
+    of_one = model.add_load("net 1", at="end", force=[0, 0, -1])
+    for number in 1, 2:
+        model.add_probe(f"tip {number}", f"net {number}", "end")
+    steps = {"type": "static", "load_steps": [1, 2]}
+    for load, value in ((of_all, [0, 0, -3]), (of_one, [0, 0, -5])):
+        simulation = model.simulate(**steps)
+        simulation.step()
+        simulation.set_load(load, value)
+        changed, other = simulation.run()[-1], model.copy()
+        other.case["loads"][load.number]["force"] = value
+        expected = other.run(**steps)[-1]
+        for tip in "tip 1.z", "tip 2.z":
+            assert changed[tip] == pytest.approx(expected[tip], rel=1e-6)
+
+
 def test_loads_that_there_are_none_of_say_so():
     simulation = swinging().simulate(**RUN)
     with pytest.raises(ValueError, match="there is no load 1; the model has 1"):
