@@ -19,19 +19,16 @@ namespace py = pybind11;
 // The equations of a model in one mesh, and a state of it; both stay as they are.
 class Equations {
  public:
-  Equations(std::shared_ptr<const BeamModel> model, const MeshPlan& plan, State state)
-      : system_(std::move(model), plan), state_(std::move(state)) {}
+  // The same system once more, which belongs to nobody else.
+  Equations(const BeamSystem& system, State state)
+      : system_(system.shared_model(), system.mesh().plan, system.held()), state_(std::move(state)) {}
 
   static Equations drawn(const BuiltCase& c, const Functions& functions) {
-    const auto model =
-        std::make_shared<const BeamModel>(with_laws(c.built(), functions, c.case_file.analysis));
-    const MeshedState drawn = MeshedState::drawn(model);
-    return {model, drawn.system->mesh().plan, drawn.state};
+    const MeshedState drawn = MeshedState::drawn(
+        std::make_shared<const BeamModel>(with_laws(c.built(), functions, c.case_file.analysis)));
+    return {*drawn.system, drawn.state};
   }
-  static Equations of(const LiveRun& run) {
-    const BeamSystem& system = run.simulation().system();
-    return {system.shared_model(), system.mesh().plan, run.simulation().state()};
-  }
+  static Equations of(const LiveRun& run) { return {run.simulation().system(), run.simulation().state()}; }
 
   const BeamSystem& system() const { return system_; }
   const State& state() const { return state_; }

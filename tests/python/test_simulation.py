@@ -171,6 +171,20 @@ def test_a_changed_load_of_several_beams_is_changed_on_each(tmp_path):
             assert changed[tip] == pytest.approx(expected[tip], rel=1e-6)
 
 
+def test_a_changed_load_leaves_held_bodies_where_they_are():
+    model = nb.Model(gravity=[0, 0, -9.81])
+    wire = model.add_beam([[0, 0, 0], [2, 0, 0]], section=nb.Circle(radius=0.01), material="steel", elements=8)
+    model.add_support(wire, at="start", type="pinned")
+    model.add_support(wire, at="end", type="pinned")
+    model.add_sliding_joint(model.add_body("bead", mass=3), wire, {"fraction": 0.4}, equilibrium="held")
+    load = model.add_load(wire, at={"fraction": 0.5}, force=[0, 0, -1])
+    simulation = model.simulate(type="static", load_steps=[1, 2])
+    simulation.step()
+    before = simulation.snapshot["bead.holding_force"]
+    simulation.set_load(load, [0, 0, -1])
+    assert abs(before) > 0.01 and simulation.snapshot["bead.holding_force"] == pytest.approx(before, rel=1e-6)
+
+
 def test_loads_that_there_are_none_of_say_so():
     simulation = swinging().simulate(**RUN)
     with pytest.raises(ValueError, match="there is no load 1; the model has 1"):

@@ -52,6 +52,16 @@ def test_coordinates_have_names(moving):
         moving.residual(q=[1, 2])
 
 
+def test_a_state_with_held_bodies_fulfils_its_equations():
+    model = bead_on_a_wire(at=1.5, equilibrium="held")
+    model.case["gravity"] = [0, 0, -9.81]
+    simulation = model.simulate(type="static")
+    simulation.step()
+    dynamics, constraints = simulation.system.residual()
+    assert len(constraints) == len(simulation.system.multipliers)
+    assert np.abs(dynamics).max() < 1e-5 and abs(simulation.snapshot["bead.holding_force"]) > 1e-3
+
+
 def test_frequencies_follow_from_the_matrices():
     system = straight_cantilever(elements=10).system()
     K, M, G = system.stiffness(), system.mass(), system.constraint_gradient()
