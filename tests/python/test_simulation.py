@@ -447,6 +447,16 @@ def test_what_a_run_rings_is_given_as_a_warning(tmp_path, out):
         loose.run(type="static", **where)
 
 
+def test_modes_that_fail_are_not_said_to_be_few():
+    model = nb.Model(gravity=[0, 0, 0])
+    beam = model.add_beam([[0, 0, 0], [1, 0, 0]], section=nb.Circle(radius=0.005), material="steel", elements=8,
+                          tension=-3000)
+    model.add_support(beam, at="start", type="clamped")
+    with pytest.raises(nb.RunError, match="the state is unstable") as failed:
+        model.modes(about="drawn")
+    assert failed.value.results.report["warnings"] == []
+
+
 def test_frames_until_a_law_raises_are_there(tmp_path):
     model = straight_cantilever()
 
