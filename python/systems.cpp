@@ -1,6 +1,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "fem/motion/meshed_state.h"
@@ -66,6 +67,13 @@ void name_number(std::vector<std::string>& names, int at, const std::string& nam
   if (at >= 0) names[at] = name;
 }
 
+// "trolley.s", or "trolley.cable.s" of a body that slides on several beams.
+std::string place_name(const BeamModel& model, const SlidingJoint& joint) {
+  const std::string& body = model.bodies[joint.body].name;
+  const bool on_others = std::ranges::count(model.joints, joint.body, &SlidingJoint::body) > 1;
+  return on_others ? body + "." + model.beam_of(joint).name + ".s" : body + ".s";
+}
+
 // "cable[3].x", "cable[3].slope.x", "trolley.s", ...
 std::vector<std::string> coordinate_names(const Equations& e) {
   const Mesh& mesh = e.system().mesh();
@@ -92,7 +100,7 @@ std::vector<std::string> coordinate_names(const Equations& e) {
   for (int i = 0; i < static_cast<int>(mesh.bodies.size()); ++i)
     name_vector(names, mesh.bodies[i], D, model.bodies[i].name);
   for (int j = 0; j < static_cast<int>(mesh.joints.size()); ++j)
-    name_number(names, mesh.joints[j].place, model.bodies[model.joints[j].body].name + ".s");
+    name_number(names, mesh.joints[j].place, place_name(model, model.joints[j]));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i].empty()) names[i] = "coordinate[" + std::to_string(i) + "]";
   return names;
