@@ -447,6 +447,17 @@ def test_what_a_run_rings_is_given_as_a_warning(tmp_path, out):
         loose.run(type="static", **where)
 
 
+def test_what_is_left_out_of_a_cad_file_is_given_as_a_warning(tmp_path):
+    nb.write(tmp_path / "two.step", [nb.Curve.line([x, 0, 0], [x + 1, 0, 0]) for x in (0, 1)])
+    model = nb.Model(gravity=[0, 0, -9.81])
+    beam = model.add_beam({"file": str(tmp_path / "two.step")}, section=nb.Circle(radius=0.01), material="steel", elements=4)
+    model.add_support(beam, at="start", type="clamped")
+    model.case["output"] = {"cad": {"formats": ["step-source"]}}
+    with pytest.warns(nb.CaseWarning, match="is a chain of several curves") as told:
+        model.run(type="static", out=tmp_path / "out", progress=False)
+    assert len(told) == 1
+
+
 def test_modes_that_fail_are_not_said_to_be_few():
     model = nb.Model(gravity=[0, 0, 0])
     beam = model.add_beam([[0, 0, 0], [1, 0, 0]], section=nb.Circle(radius=0.005), material="steel", elements=8,
