@@ -468,16 +468,19 @@ def test_modes_that_fail_are_not_said_to_be_few():
     assert failed.value.results.report["warnings"] == []
 
 
-def test_frames_until_a_law_raises_are_there(tmp_path):
+def raising(t, r, v):
+    raise ZeroDivisionError("my own")
+
+
+@pytest.mark.parametrize(("late", "error", "message"), [
+    (raising, ZeroDivisionError, "my own"),
+    (lambda t, r, v: (0, np.nan, 0), ValueError, "a force must be finite"),
+    (lambda t, r, v: None, TypeError, "expected the force"),
+])
+def test_frames_until_a_law_raises_are_there(tmp_path, late, error, message):
     model = straight_cantilever()
-
-    def law(t, r, v):
-        if t > 0.03:
-            raise ZeroDivisionError("my own")
-        return 0, -1, 0
-
-    model.add_force(law, beam="rod", at="end")
-    with pytest.raises(ZeroDivisionError, match="my own"):
+    model.add_force(lambda t, r, v: late(t, r, v) if t > 0.03 else (0, -1, 0), beam="rod", at="end")
+    with pytest.raises(error, match=message):
         model.run(**RUN, out=tmp_path / "out", progress=False)
     results = nb.Results(tmp_path / "out")
     assert len(results) == 7 and results.times[-1] == pytest.approx(0.03)
