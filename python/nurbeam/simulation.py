@@ -118,8 +118,10 @@ class Simulation:
 
     @property
     def report(self) -> dict[str, Any]:
-        """What the run has come to: `status`, `time`, `steps`, `rejected_steps`, `newton_iterations`, `seconds`,
-        `energy_drift` [J], `events` (changes of the mesh, bodies at a beam's end, each with its `time` and `kind`)."""
+        """What the run has come to: `status`, in words; `done`, False once it has failed or been interrupted; `time`,
+        `steps`, `rejected_steps`, `newton_iterations`, `seconds`, `energy_drift` [J], `events` (changes of the mesh, bodies
+        at a beam's end, each with its `time` and `kind`), `warnings` (notes too, each its severity, its place and its
+        message)."""
         return self._core.report()
 
     @property
