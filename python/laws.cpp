@@ -7,6 +7,7 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <variant>
 
 #include "nurbs/number_text.h"
@@ -16,6 +17,13 @@ namespace nurbeam::python {
 namespace {
 
 namespace py = pybind11;
+
+// Python's own exception from the start: on the way through a run pybind11's of that type, a
+// std::runtime_error, would be taken for that of a file.
+[[noreturn]] void raise_error(PyObject* type, const std::string& message) {
+  PyErr_SetString(type, message.c_str());
+  throw py::error_already_set();
+}
 
 class PythonLaw {
  public:
@@ -66,19 +74,20 @@ class PythonLaw {
       const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(answer);
       if (!array) PyErr_Clear();
       if (!array || array.size() != world.size())
-        throw py::type_error(name() + ": returned " + std::string(py::str(py::repr(answer))) + "; expected " +
-                             (points_ == 1 ? "the force, three numbers in newtons"
-                                           : std::to_string(points_) + " forces, three numbers each"));
+        raise_error(PyExc_TypeError,
+                    name() + ": returned " + std::string(py::str(py::repr(answer))) + "; expected " +
+                        (points_ == 1 ? "the force, three numbers in newtons"
+                                      : std::to_string(points_) + " forces, three numbers each"));
       world = Eigen::Map<const Eigen::Matrix3Xd>(array.data(), 3, points_);
     }
     if (!world.allFinite())
-      throw py::value_error(name() + ": returned " + std::string(py::str(py::repr(answer))) +
-                            " at t = " + text_of(t) + " s; a force must be finite");
+      raise_error(PyExc_ValueError, name() + ": returned " + std::string(py::str(py::repr(answer))) +
+                                        " at t = " + text_of(t) + " s; a force must be finite");
     const Eigen::Matrix3Xd local = frame_.rotation * world;
     if (frame_.dimension == 2 && local.row(2).norm() > 1e-9 * local.norm())
-      throw py::value_error(name() + ": returned " + std::string(py::str(py::repr(answer))) +
-                            " at t = " + text_of(t) +
-                            " s, a force out of the plane of the model; add the law with spatial=True");
+      raise_error(PyExc_ValueError,
+                  name() + ": returned " + std::string(py::str(py::repr(answer))) + " at t = " + text_of(t) +
+                      " s, a force out of the plane of the model; add the law with spatial=True");
     return local;
   }
 
@@ -102,18 +111,18 @@ class PythonLaw {
     const Eigen::Index n = 3 * points_;
     if (!array) PyErr_Clear();
     if (!array || array.ndim() != 2 || array.shape(0) != n || array.shape(1) != n)
-      throw py::type_error(name() + ": the derivative by " + by + " must have the shape (" +
-                           std::to_string(n) + ", " + std::to_string(n) + "), or be None");
+      raise_error(PyExc_TypeError, name() + ": the derivative by " + by + " must have the shape (" +
+                                       std::to_string(n) + ", " + std::to_string(n) + "), or be None");
     Eigen::MatrixXd local =
         Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(array.data(),
                                                                                                  n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
         if (!std::isfinite(local(i, j)))
-          throw py::value_error(name() + ": the derivative by " + by + " is " + text_of(local(i, j)) +
-                                " at [" + std::to_string(i) + ", " + std::to_string(j) +
-                                "] at t = " + text_of(t) +
-                                " s; it must be finite, or None: then it is taken by differences");
+          raise_error(PyExc_ValueError,
+                      name() + ": the derivative by " + by + " is " + text_of(local(i, j)) + " at [" +
+                          std::to_string(i) + ", " + std::to_string(j) + "] at t = " + text_of(t) +
+                          " s; it must be finite, or None: then it is taken by differences");
     for (Eigen::Index i = 0; i < points_; ++i)
       for (Eigen::Index j = 0; j < points_; ++j) {
         auto block = local.block<3, 3>(3 * i, 3 * j);
@@ -162,12 +171,12 @@ class PythonMotion {
     const std::string returned = path_ + ".motion: returned " + std::string(py::str(py::repr(answer))) +
                                  " at t = " + text_of(t) + " s; ";
     if (!array || array.size() != N)
-      throw py::type_error(returned + "expected " +
-                           (N == 1 ? "the reference arc length, a number in metres"
-                                   : "the displacement, three numbers in metres") +
-                           ", or this and its first two derivatives");
+      raise_error(PyExc_TypeError, returned + "expected " +
+                                       (N == 1 ? "the reference arc length, a number in metres"
+                                               : "the displacement, three numbers in metres") +
+                                       ", or this and its first two derivatives");
     const Vector value = Eigen::Map<const Vector>(array.data());
-    if (!value.allFinite()) throw py::value_error(returned + "a motion must be finite");
+    if (!value.allFinite()) raise_error(PyExc_ValueError, returned + "a motion must be finite");
     return value;
   }
 
@@ -178,9 +187,9 @@ class PythonMotion {
 PlaceMotion place_motion(const PythonMotion<1>& motion, const SlidingJoint& joint, double length) {
   const double start = motion.at(0).value[0];
   if (std::abs(start - joint.s) > 1e-9 * length)
-    throw py::value_error(motion.path() + ".motion: is at s = " + text_of(start) +
-                          " m at time 0, but \"at\" is s = " + text_of(joint.s) +
-                          " m; it must start where \"at\" is");
+    raise_error(PyExc_ValueError, motion.path() + ".motion: is at s = " + text_of(start) +
+                                      " m at time 0, but \"at\" is s = " + text_of(joint.s) +
+                                      " m; it must start where \"at\" is");
   return PlaceMotion([motion](double t) {
     const auto now = motion.at(t);
     return PlaceMotion::Moment{now.value[0], now.speed[0], now.acceleration[0]};
@@ -191,17 +200,19 @@ DisplacementTable support_motion(const PythonMotion<3>& motion, const ModelFrame
                                  bool starts_as_drawn) {
   const double start = motion.at(0).value.norm();
   if (starts_as_drawn && start > 0)
-    throw py::value_error(
+    raise_error(
+        PyExc_ValueError,
         motion.path() + ".motion: is " + text_of(start) +
-        " m from the drawn place at time 0, but the run starts as drawn; begin with (0, 0, 0), or "
-        "start with initial=\"equilibrium\"");
+            " m from the drawn place at time 0, but the run starts as drawn; begin with (0, 0, 0), or "
+            "start with initial=\"equilibrium\"");
   return DisplacementTable([motion, frame](double t) {
     const auto now = motion.at(t);
     if (frame.dimension == 2 && std::abs((frame.rotation * now.value)[2]) > 1e-9 * now.value.norm()) {
       const py::gil_scoped_acquire lock;
-      throw py::value_error(
+      raise_error(
+          PyExc_ValueError,
           motion.path() + ".motion: leaves the plane of the model at t = " + text_of(t) +
-          " s; give the model a load out of its plane, which may be 0 in time, to make it one in space");
+              " s; give the model a load out of its plane, which may be 0 in time, to make it one in space");
     }
     return DisplacementTable::Motion{frame.direction_to_local(now.value), frame.direction_to_local(now.speed),
                                      frame.direction_to_local(now.acceleration)};

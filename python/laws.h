@@ -21,8 +21,8 @@ using Functions = std::pair<std::vector<pybind11::function>, std::vector<pybind1
 /// alone or with its first two derivatives. What they raise ends the call that has led to it. The model
 /// borrows the functions: as long as it is asked for forces somebody must keep them. Throws
 /// std::invalid_argument where there are not the functions that the case has use for, and
-/// pybind11::value_error where a body's motion does not begin where the body is, or a support's not at its
-/// drawn place though the run does.
+/// pybind11::error_already_set of a ValueError where a body's motion does not begin where the body is, or a
+/// support's not at its drawn place though the run does.
 BeamModel with_laws(const BuiltModel& built, const Functions& functions, const CaseAnalysis& analysis);
 
 /// `owner`, an object of Python with attributes of its own, which keeps the functions of its model as one of

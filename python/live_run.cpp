@@ -38,7 +38,7 @@ SimulationObserver observer_of(const BuiltCase& c, Recording& recording, FrameCh
   return observer;
 }
 
-// `value` in the model's coordinates.
+// `value` in the model's coordinates, `number` that of its load.
 void set_value(Force& force, std::size_t number, const Eigen::Vector3d& value) {
   std::visit(
       [&](auto& load) {
@@ -52,6 +52,12 @@ void set_value(Force& force, std::size_t number, const Eigen::Vector3d& value) {
               " has no vector; only a force, a moment or a force per length can be changed");
       },
       force);
+}
+
+// Gives a load of the case another value, on every beam that it is on.
+void set_load(const BuiltModel& built, std::size_t number, const Eigen::Vector3d& value,
+              std::vector<Force>& forces) {
+  for (const int i : built.loads.at(number)) set_value(forces.at(i), number, value);
 }
 
 void check_model(const BuiltCase& c, const Checkpoint& start) {
@@ -70,10 +76,8 @@ std::shared_ptr<const BeamModel> model_of(const BuiltCase& c, const Functions& f
   if (start) check_model(c, *start);
   BeamModel model = with_laws(c.built(), functions, c.case_file.analysis);
   if (start)
-    for (const ChangedLoad& load : start->changed_loads) {
-      const auto number = static_cast<std::size_t>(load.force);
-      set_value(model.forces.at(number), number, load.value);
-    }
+    for (const ChangedLoad& load : start->changed_loads)
+      set_load(c.built(), static_cast<std::size_t>(load.number), load.value, model.forces);
   return std::make_shared<const BeamModel>(std::move(model));
 }
 
@@ -168,9 +172,9 @@ void LiveRun::change_load(std::size_t number, const Eigen::Vector3d& value) {
   const Turn turn(*this);
   const Eigen::Vector3d local = is_moment ? frame.moment_to_local(value) : frame.direction_to_local(value);
   const bool goes_on = simulation_.change_forces(
-      [&](std::vector<Force>& forces) { set_value(forces.at(number), number, local); });
+      [&](std::vector<Force>& forces) { set_load(of_->built(), number, local, forces); });
   std::erase_if(changed_loads_,
-                [&](const ChangedLoad& load) { return load.force == static_cast<int>(number); });
+                [&](const ChangedLoad& load) { return load.number == static_cast<int>(number); });
   changed_loads_.push_back({static_cast<int>(number), local});
   if (!goes_on) ended_ = true;
 }

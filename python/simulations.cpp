@@ -79,9 +79,10 @@ py::tuple modes(const std::shared_ptr<BuiltCase>& c, const Functions& functions)
   }
   interrupts.rethrow();
   std::vector<Diagnostic> warnings = run_warnings(c->case_file, built, report, checks);
-  for (const auto& more : {round_off_warning(c->case_file.path, built.model, *recording->modes),
-                           fewer_modes_note(c->case_file, *recording->modes)})
-    if (more) warnings.push_back(*more);
+  if (report.status == SimulationStatus::done)  // else it has not come to them
+    for (const auto& more : {round_off_warning(c->case_file.path, built.model, *recording->modes),
+                             fewer_modes_note(c->case_file, *recording->modes)})
+      if (more) warnings.push_back(*more);
   return py::make_tuple(recording, report_facts(report, *c, warnings));
 }
 

@@ -1,6 +1,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "fem/motion/meshed_state.h"
@@ -19,19 +20,16 @@ namespace py = pybind11;
 // The equations of a model in one mesh, and a state of it; both stay as they are.
 class Equations {
  public:
-  Equations(std::shared_ptr<const BeamModel> model, const MeshPlan& plan, State state)
-      : system_(std::move(model), plan), state_(std::move(state)) {}
+  // The same system once more, which belongs to nobody else.
+  Equations(const BeamSystem& system, State state)
+      : system_(system.shared_model(), system.mesh().plan, system.held()), state_(std::move(state)) {}
 
   static Equations drawn(const BuiltCase& c, const Functions& functions) {
-    const auto model =
-        std::make_shared<const BeamModel>(with_laws(c.built(), functions, c.case_file.analysis));
-    const MeshedState drawn = MeshedState::drawn(model);
-    return {model, drawn.system->mesh().plan, drawn.state};
+    const MeshedState drawn = MeshedState::drawn(
+        std::make_shared<const BeamModel>(with_laws(c.built(), functions, c.case_file.analysis)));
+    return {*drawn.system, drawn.state};
   }
-  static Equations of(const LiveRun& run) {
-    const BeamSystem& system = run.simulation().system();
-    return {system.shared_model(), system.mesh().plan, run.simulation().state()};
-  }
+  static Equations of(const LiveRun& run) { return {run.simulation().system(), run.simulation().state()}; }
 
   const BeamSystem& system() const { return system_; }
   const State& state() const { return state_; }
@@ -69,6 +67,13 @@ void name_number(std::vector<std::string>& names, int at, const std::string& nam
   if (at >= 0) names[at] = name;
 }
 
+// "trolley.s", or "trolley.cable.s" of a body that slides on several beams.
+std::string place_name(const BeamModel& model, const SlidingJoint& joint) {
+  const std::string& body = model.bodies[joint.body].name;
+  const bool on_others = std::ranges::count(model.joints, joint.body, &SlidingJoint::body) > 1;
+  return on_others ? body + "." + model.beam_of(joint).name + ".s" : body + ".s";
+}
+
 // "cable[3].x", "cable[3].slope.x", "trolley.s", ...
 std::vector<std::string> coordinate_names(const Equations& e) {
   const Mesh& mesh = e.system().mesh();
@@ -95,7 +100,7 @@ std::vector<std::string> coordinate_names(const Equations& e) {
   for (int i = 0; i < static_cast<int>(mesh.bodies.size()); ++i)
     name_vector(names, mesh.bodies[i], D, model.bodies[i].name);
   for (int j = 0; j < static_cast<int>(mesh.joints.size()); ++j)
-    name_number(names, mesh.joints[j].place, model.bodies[model.joints[j].body].name + ".s");
+    name_number(names, mesh.joints[j].place, place_name(model, model.joints[j]));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i].empty()) names[i] = "coordinate[" + std::to_string(i) + "]";
   return names;

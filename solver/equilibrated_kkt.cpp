@@ -67,7 +67,7 @@ Matrix scaled(const Matrix& kkt, const Vector& d) {
   return result;
 }
 
-EquilibratedKkt::EquilibratedKkt(const Matrix& kkt, int n) : n_(n), factor_(equilibration(kkt, n)) {
+EquilibratedKkt::EquilibratedKkt(const Matrix& kkt, int n) : factor_(equilibration(kkt, n)) {
   regular_ = solver_.factorise(scaled(kkt, factor_));
 }
 
@@ -79,12 +79,6 @@ KktSolver::Columns EquilibratedKkt::solutions(const KktSolver::Columns& rhs) con
   KktSolver::Columns x;
   solver_.solve(factor_.asDiagonal() * rhs, x);
   return factor_.asDiagonal() * x;
-}
-
-Vector EquilibratedKkt::constrained_solve(const Vector& x) const {
-  Vector rhs = Vector::Zero(factor_.size());
-  rhs.head(n_) = x;
-  return solve(rhs).head(n_);
 }
 
 }  // namespace nurbeam

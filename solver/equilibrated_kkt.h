@@ -15,11 +15,8 @@ class EquilibratedKkt {
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
   /// The same for many right-hand sides, a column each.
   KktSolver::Columns solutions(const KktSolver::Columns& rhs) const;
-  /// (n) y with B y + G'z = x, G y = 0. Precondition: regular().
-  Eigen::VectorXd constrained_solve(const Eigen::VectorXd& x) const;
 
  private:
-  int n_;
   Eigen::VectorXd factor_;
   KktSolver solver_;
   bool regular_;

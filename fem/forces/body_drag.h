@@ -22,7 +22,6 @@ class BodyDrag {
       if (structure.air.density * structure.bodies[body].drag_area > 0) add(BodyDrag(binding.at, body));
   }
 
-  int dragged_body() const { return body_; }
   const std::vector<int>& dofs() const { return dofs_; }
   /// On its body [N].
   Vector force(const MeshedBeams<D>& at, const State& state) const;

@@ -29,11 +29,11 @@
 /// the generalised force on an element of its `beam` with torsion, with per_length(state) about the tangent;
 /// `depends_on_multipliers`; `has_constant_inertia`, where it is the same in all states and nothing of it
 /// changes with velocities; `is_body`, where it is no more than a body's inertia and weight; is_damper(at),
-/// whether it ends transients; what it is of: a dragged_body() with its force(at, state), a sliding_joint()
-/// with its friction(at, state), a connector() with its length_and_force(at, state). State::load scales all
-/// loads. A description may be `permanent`: part of the state that buckling is about, not of the loads that
-/// it multiplies. One that is not itself such a force names its Bound<D>, made of (description, at, drawn);
-/// it may ask for nodes with for_each_node(visit).
+/// whether it ends transients; what it is of: a sliding_joint() with its friction(at, state), a connector()
+/// with its length_and_force(at, state). State::load scales all loads. A description may be `permanent`: part
+/// of the state that buckling is about, not of the loads that it multiplies. One that is not itself such a
+/// force names its Bound<D>, made of (description, at, drawn); it may ask for nodes with
+/// for_each_node(visit).
 namespace nurbeam {
 
 using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;

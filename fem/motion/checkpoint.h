@@ -10,9 +10,9 @@
 
 namespace nurbeam {
 
-/// A load of a model that has another value than the model has it.
+/// A load that has another value than the case has it.
 struct ChangedLoad {
-  int force = 0;  ///< of the model
+  int number = 0;  ///< among the loads of the case
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
 };
 

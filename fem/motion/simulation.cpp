@@ -122,7 +122,8 @@ struct Simulation::Implementation {
     run_.model = std::move(changed);
     kinks_ = kink_times(*run_.model);
     MeshedState& at = run_.at;
-    at.system = std::make_unique<BeamSystem>(run_.model, present_plan(*at.system, at.state));
+    at.system =
+        std::make_unique<BeamSystem>(run_.model, present_plan(*at.system, at.state), at.system->held());
     return phase_ != Phase::motion || run_.restart();
   }
 

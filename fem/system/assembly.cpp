@@ -32,6 +32,7 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
                       const Assembly* like, const Assembly* neighbour)
     : model_(std::move(model)),
       mesh_(make_mesh(*model_, std::move(plan))),
+      held_(held),
       elements_(make_elements<D>(*model_, mesh_, elements_of(like))) {
   for (int i = 0; i < static_cast<int>(mesh_.spans.size()); ++i)
     if (mesh_.spans[i].place_a >= 0 || mesh_.spans[i].place_b >= 0) moving_spans_.push_back(i);

@@ -45,6 +45,7 @@ class Assembly final : public SecondOrderSystem {
 
   const std::shared_ptr<const BeamModel>& model() const { return model_; }
   const Mesh& mesh() const { return mesh_; }
+  const std::vector<bool>& held() const { return held_; }
   const std::vector<MeshElement<D>>& elements() const { return elements_; }
   const std::vector<BoundForce<D>>& forces() const { return forces_; }
   MeshedBeams<D> beams() const { return {*model_, mesh_, elements_}; }
@@ -241,6 +242,7 @@ class Assembly final : public SecondOrderSystem {
 
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;
+  std::vector<bool> held_;
   std::vector<int> moving_spans_;  // those with an end that moves
   std::vector<MeshElement<D>> elements_;
   std::vector<Walk> walks_;  // of each beam

@@ -65,6 +65,7 @@ const std::shared_ptr<const BeamModel>& BeamSystem::shared_model() const {
 }
 const BeamModel& BeamSystem::model() const { return *shared_model(); }
 const Mesh& BeamSystem::mesh() const { return planar_ ? planar_->mesh() : spatial_->mesh(); }
+const std::vector<bool>& BeamSystem::held() const { return planar_ ? planar_->held() : spatial_->held(); }
 
 int BeamSystem::coordinate_count() const { return system_->coordinate_count(); }
 int BeamSystem::constraint_count() const { return system_->constraint_count(); }

@@ -40,6 +40,8 @@ class BeamSystem final : public SecondOrderSystem {
   const BeamModel& model() const;
   const std::shared_ptr<const BeamModel>& shared_model() const;
   const Mesh& mesh() const;
+  /// The joints whose s is held at its value in the plan, as they were given.
+  const std::vector<bool>& held() const;
   int dimension() const { return model().dimension; }
 
   int coordinate_count() const override;

@@ -109,20 +109,6 @@ Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, in
   return vector;
 }
 
-Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  with_assembly(system, [&]<int D>(const Assembly<D>& a) {
-    for (const BoundForce<D>& force : a.forces())
-      std::visit(
-          [&](const auto& f) {
-            if constexpr (requires { f.dragged_body(); })
-              if (f.dragged_body() == body) sum += widened<D>(f.force(a.beams(), state));
-          },
-          force);
-  });
-  return sum;
-}
-
 Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint) {
   const Mesh& mesh = system.mesh();
   if (mesh.plan.modes[joint] == JointMode::free) return Eigen::Vector3d::Zero();

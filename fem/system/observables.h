@@ -42,8 +42,6 @@ Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, in
 /// Deformed length of a beam [m].
 double beam_length(const BeamSystem& system, const State& state, int beam);
 
-/// Of the air on a body [N].
-Eigen::Vector3d air_drag(const BeamSystem& system, const State& state, int body);
 /// Force of the beams on the body of a joint, m (a - g) less what all else gives to it [N].
 Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint);
 /// The row of the multiplier of a held or prescribed joint; empty where its place is free.

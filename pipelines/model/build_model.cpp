@@ -350,10 +350,12 @@ void check_moment(const CaseLoad& load, const LoadAtPlace& moment, const DrawnBe
 }
 
 void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
-               BeamModel& model, Findings& findings) {
-  for (const CaseLoad& load : resolved.loads) {
+               BeamModel& model, std::vector<std::vector<int>>& forces_of_loads, Findings& findings) {
+  for (std::size_t i = 0; i < resolved.loads.size(); ++i) {
+    const CaseLoad& load = resolved.loads[i];
     const int b = resolved.beam_index(load.beam);
     const DrawnBeam& beam = beams[b];
+    forces_of_loads[resolved.load_numbers[i]].push_back(static_cast<int>(model.forces.size()));
     switch (load.kind) {
       case CaseLoad::Kind::force:
         model.forces.push_back(PointLoad{
@@ -530,7 +532,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   check_joined_supports(resolved, beams, joined, findings);
   if (findings.has_errors()) return {};
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
-  add_loads(resolved, beams, built.frame, built.model, findings);
+  built.loads.resize(case_file.loads.size());
+  add_loads(resolved, beams, built.frame, built.model, built.loads, findings);
   add_sliding_joints(resolved, beams, joined, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);

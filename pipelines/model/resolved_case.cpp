@@ -100,24 +100,28 @@ bool check_name(const std::string& name, const std::string& path, const BeamName
   return false;
 }
 
-// What was said of a name is said of every beam that it stands for.
+// What was said of a name is said of every beam that it stands for. Returns which of the items each now is.
 template <class Item>
-void name_each_beam(std::vector<Item>& items, const BeamNames& names, const std::vector<CaseBeam>& beams,
-                    Findings& findings) {
+std::vector<int> name_each_beam(std::vector<Item>& items, const BeamNames& names,
+                                const std::vector<CaseBeam>& beams, Findings& findings) {
   std::vector<Item> each;
-  for (const Item& item : items) {
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item& item = items[i];
     if (!check_name(item.beam, item.path, names, beams, findings)) continue;
     for (const std::string& name : names.at(item.beam)) {
       each.push_back(item);
       each.back().beam = name;
+      numbers.push_back(static_cast<int>(i));
     }
   }
   items = std::move(each);
+  return numbers;
 }
 
 // Loads and supports of a name are those of every beam that it stands for; the rest needs one beam.
 void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findings) {
-  name_each_beam(resolved.loads, names, resolved.beams, findings);
+  resolved.load_numbers = name_each_beam(resolved.loads, names, resolved.beams, findings);
   name_each_beam(resolved.supports, names, resolved.beams, findings);
   const auto known = [&](const std::string& name, const std::string& path) {
     return check_name(name, path, names, resolved.beams, findings);

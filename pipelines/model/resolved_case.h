@@ -18,6 +18,7 @@ struct ResolvedCase {
   std::vector<Chain> chains = {};  ///< per beam: indices into the curves of its file; empty for other axes
   std::vector<CaseBody> bodies;
   std::vector<CaseLoad> loads;
+  std::vector<int> load_numbers = {};  ///< per load: which of the case's it is
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
   std::vector<CaseStop> stops;

@@ -350,7 +350,7 @@ void exchange(Archive& archive, Checkpoint& p) {
                 [](double& length, auto& slot) { slot(length); });
   exchange_rows(archive, "changed_loads", "load, its value since it was changed", p.changed_loads,
                 [](ChangedLoad& load, auto& slot) {
-                  slot(load.force);
+                  slot(load.number);
                   for (double& component : load.value) slot(component);
                 });
   exchange_rows(archive, "steps",

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <iostream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "cad_import/export_into_step.h"
-#include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/results/export_results.h"
 #include "pipelines/results/swept_section.h"
 
@@ -179,7 +177,6 @@ void CadOutput::write(const Snapshot& frame, const std::string& format,
                        [&](const Diagnostic& s) { return s.where == d.where && s.message == d.message; });
   };
   std::erase_if(found, is_known);
-  print_diagnostics(std::cerr, found);
   diagnostics.insert(diagnostics.end(), found.begin(), found.end());
 }
 

@@ -224,6 +224,7 @@ class Run {
     summary_.wall_times.motion = simulated.motion_seconds;
     summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
                                 outputs.diagnostics().end());
+    print_diagnostics(messages_, outputs.diagnostics());
     print_diagnostics(*log_, outputs.diagnostics());
     summary_.wall_times.length_control = simulated.length_control_seconds;
     if (from_) summary_.resumed_at = from_->state.t;

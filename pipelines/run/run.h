@@ -25,8 +25,9 @@ struct RunOptions {
 /// where the options say.
 int run_case(const CaseFile& case_file, const RunOptions& options);
 
-/// The same of the model of a case, without the messages of building it, which took `build_seconds`.
-/// Precondition: there is a model.
+/// The same of the model of a case, without the messages of building it, which took `build_seconds`. What
+/// functions in the model throw comes out once the frames until then are written; a std::runtime_error of
+/// theirs would be taken for that of a file. Precondition: there is a model.
 int run_model(const CaseFile& case_file, const BuildReport& report, const RunOptions& options,
               double build_seconds = 0);
 

@@ -118,8 +118,10 @@ class Simulation:
 
     @property
     def report(self) -> dict[str, Any]:
-        """What the run has come to: `status`, `time`, `steps`, `rejected_steps`, `newton_iterations`, `seconds`,
-        `energy_drift` [J], `events` (changes of the mesh, bodies at a beam's end, each with its `time` and `kind`)."""
+        """What the run has come to: `status`, in words; `done`, False once it has failed or been interrupted; `time`,
+        `steps`, `rejected_steps`, `newton_iterations`, `seconds`, `energy_drift` [J], `events` (changes of the mesh, bodies
+        at a beam's end, each with its `time` and `kind`), `warnings` (notes too, each its severity, its place and its
+        message)."""
         return self._core.report()
 
     @property
@@ -137,7 +139,7 @@ class Simulation:
     def set_load(self, load: Load | int, value: npt.ArrayLike) -> None:
         """Gives a load another value from now on, a vector in world coordinates: three numbers, in N for a force, N m for
         a moment, N/m for a force per length; texts with units are for models alone. `load` is what `model.add_load` has
-        returned, or its number among the loads of the case."""
+        returned, or its number among the loads of the case; where it is on a beam of several chains it changes on each."""
         number: Any = getattr(load, "number", load)
         try:
             number = operator.index(number)

@@ -128,6 +128,13 @@ Vector3d force_of_points(const BeamSystem& system, const State& state) {
   return force;
 }
 
+/// Of the air on a body [N].
+Vector3d air_drag(const BeamSystem& system, const State& state, int body) {
+  const BeamModel& model = system.model();
+  const Vector3d w = model.air.wind - vector_at(system, state.v, system.mesh().bodies[body]);
+  return state.load * model.air.density / 2 * model.bodies[body].drag_area * w.norm() * w;
+}
+
 /// Weight, loads and reactions at a moment.
 Loads external_forces(const BeamSystem& system, const State& state) {
   Loads loads;

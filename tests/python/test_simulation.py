@@ -115,6 +115,76 @@ def test_a_load_changed_between_steps_acts_from_then_on():
     assert np.ptp(energy) < 0.02 * changed.histories["energy.bending"].max()
 
 
+def pulled_rod():
+    """On a pin and a guided support that pulls it, with a load across it: the model and that load."""
+    model = nb.Model(gravity=[0, 0, 0])
+    rod = model.add_beam([[0, 0, 0], [2, 0, 0]], section=nb.Circle(radius=0.01), material="steel", elements=8)
+    model.add_support(rod, at="start", type="pinned")
+    model.add_support(rod, at="end", type="guided", direction=[1, 0, 0], force=500)
+    load = model.add_load(rod, at={"fraction": 0.5}, force=[0, 0, -10])
+    model.add_probe("middle", rod, {"fraction": 0.5})
+    return model, load
+
+
+def test_a_changed_load_is_that_of_the_case_and_no_other_force():
+    steps = {"type": "static", "load_steps": [1, 2]}
+    model, load = pulled_rod()
+    simulation = model.simulate(**steps)
+    simulation.step()
+    simulation.set_load(load, [0, 0, -20])
+    changed = simulation.run()[-1]
+    model.case["loads"][0]["force"] = [0, 0, -20]
+    assert changed["middle.z"] == pytest.approx(model.run(**steps)[-1]["middle.z"], rel=1e-6)
+
+
+def test_a_checkpoint_changes_the_loads_of_the_case_and_no_other_force():
+    model, load = pulled_rod()
+    run = {"end_time": 0.02, "step": 1e-4, "initial": "equilibrium"}
+    simulation = model.simulate(**run)
+    simulation.run_until(0.005)
+    simulation.set_load(load, [0, 0, -20])
+    simulation.run_until(0.01)
+    rest = model.simulate(**run, start=simulation.checkpoint).run()
+    assert simulation.run()[-1]["middle.z"] == rest[-1]["middle.z"]
+
+
+def test_a_changed_load_of_several_beams_is_changed_on_each(tmp_path):
+    rods = [nb.Curve.line([0, y, 0], [1, y, 0]) for y in (0, 1)]
+    nb.write(tmp_path / "rods.step", rods)
+    model = nb.Model(gravity=[0, 0, 0])
+    net = model.add_beam({"file": str(tmp_path / "rods.step"), "chains": "all"}, section=nb.Circle(radius=0.01),
+                         material="steel", elements=4, name="net")
+    model.add_support(net, at="start", type="clamped")
+    of_all = model.add_load(net, at="end", force=[0, 0, -1])
+    of_one = model.add_load("net 1", at="end", force=[0, 0, -1])
+    for number in 1, 2:
+        model.add_probe(f"tip {number}", f"net {number}", "end")
+    steps = {"type": "static", "load_steps": [1, 2]}
+    for load, value in ((of_all, [0, 0, -3]), (of_one, [0, 0, -5])):
+        simulation = model.simulate(**steps)
+        simulation.step()
+        simulation.set_load(load, value)
+        changed, other = simulation.run()[-1], model.copy()
+        other.case["loads"][load.number]["force"] = value
+        expected = other.run(**steps)[-1]
+        for tip in "tip 1.z", "tip 2.z":
+            assert changed[tip] == pytest.approx(expected[tip], rel=1e-6)
+
+
+def test_a_changed_load_leaves_held_bodies_where_they_are():
+    model = nb.Model(gravity=[0, 0, -9.81])
+    wire = model.add_beam([[0, 0, 0], [2, 0, 0]], section=nb.Circle(radius=0.01), material="steel", elements=8)
+    model.add_support(wire, at="start", type="pinned")
+    model.add_support(wire, at="end", type="pinned")
+    model.add_sliding_joint(model.add_body("bead", mass=3), wire, {"fraction": 0.4}, equilibrium="held")
+    load = model.add_load(wire, at={"fraction": 0.5}, force=[0, 0, -1])
+    simulation = model.simulate(type="static", load_steps=[1, 2])
+    simulation.step()
+    before = simulation.snapshot["bead.holding_force"]
+    simulation.set_load(load, [0, 0, -1])
+    assert abs(before) > 0.01 and simulation.snapshot["bead.holding_force"] == pytest.approx(before, rel=1e-6)
+
+
 def test_loads_that_there_are_none_of_say_so():
     simulation = swinging().simulate(**RUN)
     with pytest.raises(ValueError, match="there is no load 1; the model has 1"):
@@ -377,16 +447,40 @@ def test_what_a_run_rings_is_given_as_a_warning(tmp_path, out):
         loose.run(type="static", **where)
 
 
-def test_frames_until_a_law_raises_are_there(tmp_path):
+def test_what_is_left_out_of_a_cad_file_is_given_as_a_warning(tmp_path):
+    nb.write(tmp_path / "two.step", [nb.Curve.line([x, 0, 0], [x + 1, 0, 0]) for x in (0, 1)])
+    model = nb.Model(gravity=[0, 0, -9.81])
+    beam = model.add_beam({"file": str(tmp_path / "two.step")}, section=nb.Circle(radius=0.01), material="steel", elements=4)
+    model.add_support(beam, at="start", type="clamped")
+    model.case["output"] = {"cad": {"formats": ["step-source"]}}
+    with pytest.warns(nb.CaseWarning, match="is a chain of several curves") as told:
+        model.run(type="static", out=tmp_path / "out", progress=False)
+    assert len(told) == 1
+
+
+def test_modes_that_fail_are_not_said_to_be_few():
+    model = nb.Model(gravity=[0, 0, 0])
+    beam = model.add_beam([[0, 0, 0], [1, 0, 0]], section=nb.Circle(radius=0.005), material="steel", elements=8,
+                          tension=-3000)
+    model.add_support(beam, at="start", type="clamped")
+    with pytest.raises(nb.RunError, match="the state is unstable") as failed:
+        model.modes(about="drawn")
+    assert failed.value.results.report["warnings"] == []
+
+
+def raising(t, r, v):
+    raise ZeroDivisionError("my own")
+
+
+@pytest.mark.parametrize(("late", "error", "message"), [
+    (raising, ZeroDivisionError, "my own"),
+    (lambda t, r, v: (0, np.nan, 0), ValueError, "a force must be finite"),
+    (lambda t, r, v: None, TypeError, "expected the force"),
+])
+def test_frames_until_a_law_raises_are_there(tmp_path, late, error, message):
     model = straight_cantilever()
-
-    def law(t, r, v):
-        if t > 0.03:
-            raise ZeroDivisionError("my own")
-        return 0, -1, 0
-
-    model.add_force(law, beam="rod", at="end")
-    with pytest.raises(ZeroDivisionError, match="my own"):
+    model.add_force(lambda t, r, v: late(t, r, v) if t > 0.03 else (0, -1, 0), beam="rod", at="end")
+    with pytest.raises(error, match=message):
         model.run(**RUN, out=tmp_path / "out", progress=False)
     results = nb.Results(tmp_path / "out")
     assert len(results) == 7 and results.times[-1] == pytest.approx(0.03)

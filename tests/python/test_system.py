@@ -5,6 +5,8 @@ import pytest
 import scipy.sparse.linalg
 from models import bead_on_a_wire, bending_stiffness, straight_cantilever
 
+import nurbeam as nb
+
 
 @pytest.fixture
 def moving():
@@ -50,6 +52,29 @@ def test_coordinates_have_names(moving):
         moving.index("beed.s")
     with pytest.raises(ValueError, match="q has 2 components; expected"):
         moving.residual(q=[1, 2])
+
+
+def test_places_of_a_body_on_several_beams_are_told_apart():
+    model = nb.Model(gravity=[0, 0, 0])
+    bead = model.add_body("bead", mass=1)
+    for name, ends in (("along", [[0, 0, 0], [2, 0, 0]]), ("across", [[1, -1, 0], [1, 1, 0]])):
+        wire = model.add_beam(ends, section=nb.Circle(radius=0.01), material="steel", elements=4, name=name)
+        model.add_support(wire, at="start", type="pinned")
+        model.add_support(wire, at="end", type="pinned")
+        model.add_sliding_joint(bead, wire, at={"fraction": 0.5})
+    names = model.system().coordinates
+    assert len(set(names)) == len(names)
+    assert {"bead.along.s", "bead.across.s"} <= set(names) and "bead.s" not in names
+
+
+def test_a_state_with_held_bodies_fulfils_its_equations():
+    model = bead_on_a_wire(at=1.5, equilibrium="held")
+    model.case["gravity"] = [0, 0, -9.81]
+    simulation = model.simulate(type="static")
+    simulation.step()
+    dynamics, constraints = simulation.system.residual()
+    assert len(constraints) == len(simulation.system.multipliers)
+    assert np.abs(dynamics).max() < 1e-5 and abs(simulation.snapshot["bead.holding_force"]) > 1e-3
 
 
 def test_frequencies_follow_from_the_matrices():

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fem/model/build.h"
 #include "nurbs/primitives.h"
 
@@ -94,6 +96,25 @@ TEST(SimulationTest, ChangedForcesActFromThenOnAndNoEnergyComesOfIt) {
   }
   EXPECT_TRUE(simulation.system().model().forces.empty());
   EXPECT_LT(simulation.report().energy_drift, 1e-3 * simulation.report().energy_scale());
+}
+
+TEST(SimulationTest, ChangedForcesLeaveBodiesHeldAtRest) {
+  ModelBuilder builder(2, {0, -10, 0});
+  const ReferenceCurve line({line_cubic({0, 0, 0}, {1, 0, 0})}, 2);
+  builder.add_beam(line, BeamProperties(1e5, 2, 1), {.elements = 4});
+  builder.clamp(0, 0).clamp(0, 1);
+  builder.slide(builder.add_body("bead", 1), 0, 0.3).rest = StaticPlace::held;
+  SimulationOptions statics;
+  statics.statics = true;
+  statics.output_times = {1, 2};
+  Simulation simulation(std::make_shared<const BeamModel>(builder.build()), {}, statics);
+  simulation.advance();
+  const double before = simulation.present().bodies.at(0).holding_force;
+  simulation.change_forces([](std::vector<Force>&) {});
+  EXPECT_EQ(simulation.system().held(), std::vector<bool>{true});
+  EXPECT_EQ(simulation.state().lambda.size(), simulation.system().constraint_count());
+  EXPECT_GT(std::abs(before), 1e-3);
+  EXPECT_NEAR(simulation.present().bodies.at(0).holding_force, before, 1e-9 * std::abs(before));
 }
 
 TEST(SimulationTest, WhatAForceThrowsArrivesAndTheMotionGoesOnFromItsLastStep) {

@@ -59,6 +59,27 @@ TEST(BuildModel, AnArcWhoseEndsAreOnePointIsAWholeCircleAndARing) {
   EXPECT_TRUE(beam.is_ring());
 }
 
+TEST(BuildModel, KnowsTheForcesOfEachLoadAmongOthers) {
+  const test::TemporaryDirectory directory;
+  const std::string pinned = R"({"beam": "cable", "at": "start", "type": "pinned"})",
+                    pulled = R"({"beam": "cable", "at": "end", "type": "guided", "direction": [1, 0, 0],)"
+                             R"( "force": 5})",
+                    across = R"({"beam": "cable", "at": {"fraction": 0.5}, "force": [0, 0, -1]})",
+                    along = R"({"beam": "cable", "force_per_length": [0, 0, -2]})";
+  const CaseFileReport report =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {"supports=[" + pinned + "," + pulled + "]", "loads=[" + across + "," + along + "]"});
+  ASSERT_TRUE(report.value);
+  const BuiltModel built = build_model(*report.value).value.value();
+  const std::vector<Force>& forces = built.model.forces;
+  EXPECT_EQ(forces.size(), 3u);  // and what pulls the support
+  ASSERT_EQ(built.loads.size(), 2u);
+  ASSERT_EQ(built.loads[0].size(), 1u);
+  EXPECT_NEAR(std::get<PointLoad>(forces.at(built.loads[0][0])).value.norm(), 1, 1e-15);
+  ASSERT_EQ(built.loads[1].size(), 1u);
+  EXPECT_NEAR(std::get<LineLoad>(forces.at(built.loads[1][0])).value.norm(), 2, 1e-15);
+}
+
 TEST(BuildModel, AGradingThatLeavesNoRoomIsRefusedWithItsRange) {
   // The tightest interval is the one before the support: |k| < 2 (0.2 pi) / (3 * 2).
   const BuildReport report = build(R"({"per_segment": 3, "grading": "30 cm"})");
