@@ -172,6 +172,26 @@ double greatest_kink(const BuildReport& report) {
       beam.is_ring() ? (beam.curve.tangent(beam.curve.length(), true) - beam.curve.tangent(0)).norm() : 0.0);
 }
 
+// Within the 1e-6 m of the "approximation_tolerance"; the second is a parabola as a quartic.
+TEST(BuildModel, ACurveOfDegreeAboveThreeIsToldWithItsDeviationWhereItIsNoCubic) {
+  const auto told = [](const std::string& points) -> std::string {
+    const test::TemporaryDirectory directory;
+    const CaseFileReport report =
+        read_case_file(directory.write("case.json", test::smallest_case),
+                       {R"(beams[0].axis={"nurbs": {"degree": 4, "knots": [0, 0, 0, 0, 0, 1, 1, 1, 1, 1],
+                           "control_points": )" +
+                        points + "}}"});
+    for (const Diagnostic& d : build_model(report.value.value()).diagnostics)
+      if (d.message.find("was approximated") != std::string::npos) return d.where + ": " + d.message;
+    return "";
+  };
+  const std::string quartic = told("[[0, 0, 0], [0.2, 0, 0.4], [0.5, 0, -0.3], [0.7, 0, 0.5], [1, 0, 0]]");
+  EXPECT_NE(quartic.find("beams[0].axis: a curve of degree above 3 was approximated; largest deviation "),
+            std::string::npos)
+      << quartic;
+  EXPECT_EQ(told("[[0, 0, 0], [0.25, 0, 0.3], [0.5, 0, 0.4], [0.75, 0, 0.3], [1, 0, 0]]"), "");
+}
+
 // An element beside a kink would hold its angle in the drawn direction while the beam turns.
 TEST(BuildModel, KinksOfTheDigitsOfADrawingGoWithANote) {
   const BuildReport line = built({"beams[0].axis={\"polyline\": [[0, 0, 0], [1, 0, 0], [2, 5e-5, 0]]}",
