@@ -15,6 +15,7 @@
 #include <TColgp_HArray1OfXYZ.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -52,6 +53,32 @@ bool is_ascii(const std::string& text) {
       text.begin(), text.end(), [](unsigned char c) { return c < 0x80; });
 }
 
+Eigen::Matrix3Xd poles_of(const NurbsCurve& curve, double units_per_metre) {
+  const Eigen::Matrix4Xd& points = curve.control_points();
+  return (points.topRows<3>().array().rowwise() / points.row(3).array() * units_per_metre).matrix();
+}
+
+// What arithmetic leaves between places that are one.
+double round_off(const Eigen::Matrix3Xd& poles) {
+  const double extent = (poles.colwise() - poles.col(0)).colwise().norm().maxCoeff();
+  return std::max(1e-12 * extent, 4e-15 * poles.cwiseAbs().maxCoeff());
+}
+
+// The unit normal of the one plane that the poles lie in; nothing where they lie in none, or in a line.
+std::optional<Eigen::Vector3d> normal_of(const Eigen::Matrix3Xd& poles) {
+  const Eigen::Matrix3Xd from_first = poles.colwise() - poles.col(0);
+  Eigen::Index farthest = 0, widest = 0;
+  from_first.colwise().squaredNorm().maxCoeff(&farthest);
+  const Eigen::Vector3d along = from_first.col(farthest).normalized();
+  const Eigen::Matrix3Xd across = from_first - along * (along.transpose() * from_first);
+  across.colwise().squaredNorm().maxCoeff(&widest);
+  const double near = round_off(poles);
+  if (across.col(widest).norm() <= near) return {};
+  const Eigen::Vector3d normal = along.cross(across.col(widest)).normalized();
+  if ((normal.transpose() * from_first).cwiseAbs().maxCoeff() > near) return {};
+  return normal;
+}
+
 // The entity itself, made without OpenCASCADE's translator, which takes every shape for one in millimetres.
 Handle(IGESGeom_BSplineCurve) entity126(const NurbsCurve& curve, double units_per_metre) {
   const int degree = curve.degree();
@@ -59,19 +86,21 @@ Handle(IGESGeom_BSplineCurve) entity126(const NurbsCurve& curve, double units_pe
   const int knot_count = static_cast<int>(values.size());
   const Handle(TColStd_HArray1OfReal) knots = new TColStd_HArray1OfReal(-degree, knot_count - degree - 1);
   for (int i = 0; i < knot_count; ++i) knots->SetValue(i - degree, values[i]);
-  const Eigen::Matrix4Xd& points = curve.control_points();
-  const int last = static_cast<int>(points.cols()) - 1;
+  const Eigen::Matrix3Xd places = poles_of(curve, units_per_metre);
+  const int last = static_cast<int>(places.cols()) - 1;
   const Handle(TColStd_HArray1OfReal) weights = new TColStd_HArray1OfReal(0, last);
   const Handle(TColgp_HArray1OfXYZ) poles = new TColgp_HArray1OfXYZ(0, last);
   for (int i = 0; i <= last; ++i) {
-    const Eigen::Vector3d pole = points.col(i).head<3>() / points(3, i) * units_per_metre;
-    poles->SetValue(i, gp_XYZ(pole.x(), pole.y(), pole.z()));
-    weights->SetValue(i, points(3, i));
+    poles->SetValue(i, gp_XYZ(places(0, i), places(1, i), places(2, i)));
+    weights->SetValue(i, curve.control_points()(3, i));
   }
+  const std::optional<Eigen::Vector3d> normal = normal_of(places);
+  const Eigen::Vector3d n = normal.value_or(Eigen::Vector3d::Zero());
   const Handle(IGESGeom_BSplineCurve) entity = new IGESGeom_BSplineCurve;
-  entity->Init(last, degree, /*aPlanar=*/Standard_False, is_closed(curve, 0), !curve.is_rational(),
+  entity->Init(last, degree, /*aPlanar=*/normal.has_value(),
+               /*aClosed=*/is_closed(curve, round_off(places) / units_per_metre), !curve.is_rational(),
                /*aPeriodic=*/Standard_False, knots, weights, poles, curve.knots().start(),
-               curve.knots().end(), gp_XYZ(0, 0, 0));
+               curve.knots().end(), gp_XYZ(n.x(), n.y(), n.z()));
   return entity;
 }
 

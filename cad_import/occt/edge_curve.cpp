@@ -94,9 +94,18 @@ bool is_clamped(const Geom_BSplineCurve& curve) {
   return curve.Multiplicity(1) == full && curve.Multiplicity(curve.NbKnots()) == full;
 }
 
+// Moves what the digits of a file have set beside an end of the curve onto that end: BREP files have ranges
+// with fewer digits than knots, and OpenCASCADE cuts off no piece as short.
+void snap_to_ends(const Geom_BSplineCurve& curve, double& first, double& last) {
+  const double begin = curve.FirstParameter(), end = curve.LastParameter(), near = 1e-12 * (end - begin);
+  if (std::abs(first - begin) <= near) first = begin;
+  if (std::abs(last - end) <= near) last = end;
+}
+
 // The piece of the B-spline on the range, with clamped ends; untouched, bit by bit, when it is the whole.
 Handle(Geom_BSplineCurve) segment(const Handle(Geom_BSplineCurve) & source, double first, double last) {
   const auto curve = Handle(Geom_BSplineCurve)::DownCast(source->Copy());
+  snap_to_ends(*curve, first, last);
   const bool whole = first == curve->FirstParameter() && last == curve->LastParameter();
   if (!whole || !is_clamped(*curve)) curve->Segment(first, last);
   return curve;

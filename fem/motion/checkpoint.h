@@ -35,6 +35,8 @@ struct Checkpoint {
   long iterations_in_snapshots = 0;
   std::vector<StepRecord> steps;  ///< since the last snapshot
   SimulationReport report;        ///< so far
+  /// What was said of files written before it, which is said once: of each the file and the warning.
+  std::vector<std::string> said_of_files;
 };
 
 }  // namespace nurbeam

@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -255,6 +257,8 @@ struct CaseAnalysis {
   std::vector<double> factors() const {
     return load_factors.empty() && reads_tables ? std::vector<double>{1} : load_factors;
   }
+  /// Whether a time that is asked for is that of a state.
+  bool is_same_time(double a, double b) const { return std::abs(a - b) < 1e-9 * std::max(end_time, 1e-9); }
   bool has_modes() const { return type == Type::modes || type == Type::buckling; }
   /// An explicit method, which is for models without constraints between moving parts.
   bool is_explicit() const { return std::holds_alternative<ExplicitRungeKutta>(integrator); }

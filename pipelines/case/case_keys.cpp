@@ -478,7 +478,7 @@ Shape output() {
         array(choice({"step", "iges", "dxf", "brep", "step-solid", "step-section-lines", "step-source"}), 1),
         "file formats; step when omitted"},
        {"times", either(choice({"all"}), array(quantity(Dimension::time, not_negative()))),
-        "times to write, or all stored frames as a numbered sequence; the end time when omitted"},
+        "times to write (of a static analysis its load factors), or all stored frames as a numbered sequence; the end time when omitted"},
        {"unit", choice({"mm", "m", "inch", "in"}), "length unit of the files; mm when omitted"},
        {"schema", choice({"ap214", "ap242"}), "application protocol of STEP files; ap214 when omitted"},
        {"parameter", choice({"free", "material"}),

@@ -174,6 +174,32 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   }
 }
 
+std::string list_of(const std::vector<double>& numbers) {
+  std::string list;
+  for (const double number : numbers) list += (list.empty() ? "" : ", ") + text_of(number, all_digits);
+  return list;
+}
+
+/// Reports CAD files of load steps that there are not. Without load steps there is one state, of any time.
+void check_cad_factors(const CaseFile& c, Findings& findings) {
+  const std::vector<double>& factors = c.analysis.load_factors;
+  if (factors.empty()) return;
+  constexpr std::size_t most_named = 12;
+  const auto alternatives = [&](double t) {
+    if (factors.size() <= most_named) return "one of these: " + list_of(factors);
+    const double nearest =
+        *std::ranges::min_element(factors, {}, [t](double factor) { return std::abs(factor - t); });
+    return "one of these, of which the nearest is " + text_of(nearest, all_digits);
+  };
+  for (std::size_t i = 0; i < c.output.cad_times.size(); ++i) {
+    const double t = c.output.cad_times[i];
+    if (std::ranges::none_of(factors, [&](double factor) { return c.analysis.is_same_time(factor, t); }))
+      findings.error(child("output.cad.times", i), "is " + text_of(t, all_digits) +
+                                                       ", which is no factor of analysis.load_steps; give " +
+                                                       alternatives(t));
+  }
+}
+
 /// Small vibrations and buckling want loads with an energy; buckling wants loads.
 void check_modes(const CaseFile& c, Findings& findings) {
   if (!c.analysis.has_modes()) return;
@@ -250,6 +276,7 @@ void check_across(const Json& json, const CaseFile& case_file, Findings& finding
   check_references(json, findings);
   check_connectors(case_file, findings);
   check_times(json, case_file, findings);
+  check_cad_factors(case_file, findings);
   check_modes(case_file, findings);
   if (!findings.has_errors()) check_solids(case_file, findings);
   check_effects(json, case_file, findings);

@@ -170,7 +170,7 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
   print_connectors(out, model);
   out << "supports  " << count<Support>(model.constraints) << ", point loads "
       << count<PointLoad>(model.forces) << ", moments " << count<Moment>(model.forces)
-      << ", distributed loads " << count<LineLoad>(model.forces) << '\n';
+      << ", distributed loads " << count<LineLoad>(model.forces) + count<LineTorque>(model.forces) << '\n';
   return exit_done;
 }
 

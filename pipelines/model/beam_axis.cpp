@@ -28,6 +28,14 @@ constexpr double round_off = 1e-12;
 // A closed axis has its end on its start, to this part of its length.
 constexpr double closed_gap = 1e-6;
 
+std::vector<RationalCubic> cubics_of(const CaseBeam& beam, const BezierPath& path, bool above_cubic,
+                                     Findings& findings) {
+  if (above_cubic && path.deviation > round_off * total_length(path.segments))
+    findings.warn(beam.path + ".axis", "a curve of degree above 3 was approximated; largest deviation " +
+                                           text_of(path.deviation) + " m");
+  return path.segments;
+}
+
 BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain& chain, CadFiles& files,
                         Findings& findings) {
   const ImportReport& report = files.read(axis.path, findings);
@@ -35,14 +43,11 @@ BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain&
   for (const ImportedCurve& curve : report.curves) curves.push_back(curve.curve);
   const std::string& name = report.curves[chain.curves[0]].name;
   const BezierPath path = join(curves, chain, beam.approximation_tolerance);
-  const bool approximated =
+  const bool above_cubic =
       std::any_of(chain.curves.begin(), chain.curves.end(), [&](int i) { return curves[i].degree() > 3; });
-  if (approximated && path.deviation > round_off * total_length(path.segments))
-    findings.warn(beam.path + ".axis", "a curve of degree above 3 was approximated; largest deviation " +
-                                           text_of(path.deviation) + " m");
   const int first = chain.curves.front();
   return {.curve_name = name.empty() ? beam.name : name,
-          .segments = path.segments,
+          .segments = cubics_of(beam, path, above_cubic, findings),
           .source = AxisSource{axis.path, chain.curves, curves[first], chain.reversed.front()}};
 }
 
@@ -54,7 +59,8 @@ BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, F
         if constexpr (std::is_same_v<Source, AxisFile>)
           return axis_from_file(beam, source, chain, files, findings);
         if constexpr (std::is_same_v<Source, NurbsCurve>)
-          return {beam.name, BezierPath::from_nurbs(source, beam.approximation_tolerance).segments};
+          return {beam.name, cubics_of(beam, BezierPath::from_nurbs(source, beam.approximation_tolerance),
+                                       source.degree() > 3, findings)};
         if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
           return {beam.name, arc_cubics(source.center, source.start, source.end, source.normal)};
         if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {

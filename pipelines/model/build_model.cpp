@@ -544,6 +544,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   check_freedom(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);
+  check_polynomial_elements(resolved.beams, built.model, built.frame, findings);
   mention_plane(resolved, built.frame.dimension, findings);
   if (resolved.analysis.type == CaseAnalysis::Type::dynamic)
     mention_damping(resolved.beams, built.model, findings);

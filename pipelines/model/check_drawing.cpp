@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "fem/element/rancf_basis.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
@@ -47,6 +48,29 @@ Turn greatest_turn(const Beam& beam, const Between& between) {
   for (std::size_t i = 1; i < beam.home.size(); ++i) {
     const double s_a = beam.home[i - 1].s, s_b = beam.home[i].s, angle = between(beam.curve, s_a, s_b);
     if (angle > most.angle) most = {angle, (s_a + s_b) / 2};
+  }
+  return most;
+}
+
+// The furthest that elements of weights 1 are from the drawing, sampled [m], and where that is [m].
+struct Departure {
+  double distance = 0, s = 0;
+};
+Departure greatest_departure(const Beam& beam) {
+  constexpr int parts = 8;
+  const ReferenceCurve& curve = beam.curve;
+  Departure most;
+  for (std::size_t i = 1; i < beam.home.size(); ++i) {
+    const double s_a = beam.home[i - 1].s, s_b = beam.home[i].s;
+    NodalCoordinates ends;
+    ends << curve.position(s_a), curve.tangent(s_a), curve.position(s_b), curve.tangent(s_b, true);
+    const RationalCubic cubic = to_bezier(ends, Eigen::Vector4d::Ones(), s_b - s_a);
+    for (int k = 1; k < parts; ++k) {
+      const double u = k / static_cast<double>(parts), s = s_a + u * (s_b - s_a);
+      const Eigen::Vector3d apart = cubic.point(u) - curve.position(s), t = curve.tangent(s).normalized();
+      const double across = (apart - t * t.dot(apart)).norm();  // what is along it is no distance
+      if (across > most.distance) most = {across, s};
+    }
   }
   return most;
 }
@@ -135,6 +159,22 @@ void check_proportions(const std::vector<CaseBeam>& beams, const BeamModel& mode
                         " (density times gravity times length over \"youngs_modulus\", " +
                         text_of(beams[b].material.youngs_modulus) +
                         " Pa); it must be small (is the unit right? \"210 GPa\" is 210e9)");
+  }
+}
+
+void check_polynomial_elements(const std::vector<CaseBeam>& beams, const BeamModel& model,
+                               const ModelFrame& frame, Findings& findings) {
+  constexpr double noticed = 1e-6;  // of the length
+  for (std::size_t b = 0; b < model.beams.size(); ++b) {
+    const Beam& beam = model.beams[b];
+    if (beam.rigid || beam.weights != WeightRule::ones) continue;
+    const Departure most = greatest_departure(beam);
+    if (most.distance > noticed * beam.curve.length())
+      findings.warn(beams[b].path + ".element",
+                    "is \"ale-ancf\", whose polynomial elements depart from the drawing by up to " +
+                        text_of(most.distance, 3) + " m, at s = " + text_of(most.s, 6) + " m, " +
+                        text_of(frame.to_world(beam.curve.position(most.s))) +
+                        ": take \"ale-rancf\", which has the drawn shape, or more elements");
   }
 }
 

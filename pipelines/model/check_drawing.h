@@ -14,6 +14,11 @@ namespace nurbeam {
 void check_turns(const std::vector<CaseBeam>& beams, const BeamModel& model, const ModelFrame& frame,
                  Findings& findings);
 
+/// Warns of each beam whose elements, with all weights 1, are more than a millionth of its length from the
+/// drawing.
+void check_polynomial_elements(const std::vector<CaseBeam>& beams, const BeamModel& model,
+                               const ModelFrame& frame, Findings& findings);
+
 /// Notes what the damping of bars in space without torsion does not reach.
 void mention_damping(const std::vector<CaseBeam>& beams, const BeamModel& model, Findings& findings);
 

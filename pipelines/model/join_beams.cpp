@@ -95,8 +95,27 @@ void check_angle(const ResolvedCase& resolved, const CaseBeamJoint& joint,
                        "(\"curve\" with \"chain\"), or use \"hinged\"");
 }
 
+using Groups = std::map<std::pair<int, double>, int>;
+
+// The group of a place, which round-off may set apart from where it was found before: as nodes are divided,
+// these are one place.
+Groups::const_iterator group_at(const Groups& groups, const std::vector<DrawnBeam>& beams,
+                                const BeamPlace& place) {
+  const double same = same_place * beams[place.beam].measured.length();
+  const auto found = groups.lower_bound({place.beam, place.s - same});
+  if (found == groups.end() || found->first.first != place.beam || found->first.second > place.s + same)
+    return groups.end();
+  return found;
+}
+
+// The same place, as it is known where it is joined already.
+BeamPlace known_place(const Groups& groups, const std::vector<DrawnBeam>& beams, const BeamPlace& place) {
+  const auto found = group_at(groups, beams, place);
+  return found == groups.end() ? place : BeamPlace{place.beam, found->first.second};
+}
+
 // Puts both places into one group of places that are held together; false when they are in one.
-bool unite(const Meeting& places, std::map<std::pair<int, double>, int>& groups) {
+bool unite(const Meeting& places, Groups& groups) {
   const auto group_of = [&](const BeamPlace& place) {
     const auto key = std::pair(place.beam, place.s);
     return groups.emplace(key, static_cast<int>(groups.size())).first->second;
@@ -112,7 +131,9 @@ void join_two(const ResolvedCase& resolved, const CaseBeamJoint& joint, int a, i
               Findings& findings) {
   const std::string names = both(beams, a, b);
   if (a == b) return findings.error(joint.path + ".beams", "joins " + names + "; give different beams");
-  const Meeting places = meeting_place(beams, frame, a, b, joint.near);
+  const Meeting found = meeting_place(beams, frame, a, b, joint.near);
+  const Meeting places = {known_place(joined.groups, beams, found.first),
+                          known_place(joined.groups, beams, found.second)};
   const auto& [at_a, at_b] = places;
   const double allowed = same_joint * std::max(beams[a].measured.length(), beams[b].measured.length());
   if (distance(beams, frame, places) > allowed)
@@ -163,7 +184,8 @@ void check_joined_supports(const ResolvedCase& resolved, const std::vector<Drawn
   std::map<int, std::string> first;
   for (const CaseSupport& support : resolved.supports) {
     const int b = resolved.beam_index(support.beam);
-    const auto found = joined.groups.find({b, place_on(beams[b], support.at, support.path, findings)});
+    const auto found =
+        group_at(joined.groups, beams, {b, place_on(beams[b], support.at, support.path, findings)});
     if (found == joined.groups.end()) continue;
     const auto [other, is_new] = first.emplace(found->second, support.path);
     if (!is_new)

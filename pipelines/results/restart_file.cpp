@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "cad_import/files/atomic_file.h"
@@ -183,6 +184,15 @@ void visit_vector(Eigen::Vector3d& x, Slot& slot) {
   for (double& component : x) slot(component);
 }
 
+template <class Slot>
+void visit_loading(std::optional<Loading>& loading, Slot& slot) {
+  std::optional<double> load, t;
+  if (loading) std::tie(load, t) = std::tie(loading->load, loading->t);
+  slot(load);
+  slot(t);
+  if (load && t) loading = {*load, *t};
+}
+
 template <class Archive>
 void exchange_events(Archive& archive, std::vector<RunEvent>& events) {
   exchange_rows(
@@ -280,6 +290,8 @@ void exchange_numbers(Archive& archive, Checkpoint& p) {
                     slot(range->least);
                     slot(range->greatest);
                   }
+                  slot(r.diverges);
+                  visit_loading(r.snap, slot);
                 });
   p = std::move(row.at(0));
 }
@@ -362,6 +374,7 @@ void exchange(Archive& archive, Checkpoint& p) {
                   slot(step.rejected);
                 });
   exchange_events(archive, p.report.events);
+  archive.texts("said_of_files", p.said_of_files);
 }
 
 }  // namespace

@@ -54,11 +54,8 @@ bool CadOutput::is_wanted(const Snapshot& frame) const {
   const bool one_frame =
       case_.analysis.type == CaseAnalysis::Type::statics && case_.analysis.load_factors.empty();
   if (one_frame || case_.output.cad_at_all_times) return true;
-  return std::ranges::any_of(case_.output.cad_times, [&](double t) { return is_same_time(t, frame.time); });
-}
-
-bool CadOutput::is_same_time(double a, double b) const {
-  return std::abs(a - b) < 1e-9 * std::max(case_.analysis.end_time, 1e-9);
+  return std::ranges::any_of(case_.output.cad_times,
+                             [&](double t) { return case_.analysis.is_same_time(t, frame.time); });
 }
 
 std::string CadOutput::time_text(double time) const {
@@ -70,7 +67,7 @@ std::string CadOutput::time_text(double time) const {
   };
   int digits = usual_digits;
   const auto is_other = [&](double t) {
-    return !is_same_time(t, time) && text(t, digits) == text(time, digits);
+    return !case_.analysis.is_same_time(t, time) && text(t, digits) == text(time, digits);
   };
   while (digits < most_digits && std::ranges::any_of(case_.output.cad_times, is_other)) ++digits;
   return text(time, digits);

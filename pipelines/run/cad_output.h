@@ -30,7 +30,6 @@ class CadOutput {
 
  private:
   bool is_wanted(const Snapshot& frame) const;
-  bool is_same_time(double a, double b) const;
   // Six digits, or as many as tell it from the other times that the case lists.
   std::string time_text(double time) const;
   std::string stem(const Snapshot& frame) const;

@@ -24,6 +24,19 @@ std::vector<double> times_before(const std::filesystem::path& directory, const C
   return from && from->snapshots > 0 ? StoredFrames(directory).times() : std::vector<double>{};
 }
 
+std::vector<std::string> texts_of(const std::vector<Diagnostic>& warnings) {
+  std::vector<std::string> texts;
+  for (const Diagnostic& warning : warnings) texts.insert(texts.end(), {warning.where, warning.message});
+  return texts;
+}
+
+std::vector<Diagnostic> warnings_of(const std::vector<std::string>& texts) {
+  std::vector<Diagnostic> warnings;
+  for (std::size_t i = 0; i + 1 < texts.size(); i += 2)
+    warnings.push_back({Severity::warning, texts[i], texts[i + 1]});
+  return warnings;
+}
+
 }  // namespace
 
 RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
@@ -39,6 +52,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       checks_(built.model) {
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
+  if (from) diagnostics_ = warnings_of(from->said_of_files);
   if (!from || from->snapshots == 0) return;
   const StoredFrames stored(directory);
   for (std::size_t i = 0; i < from->snapshots; ++i) look_at(stored.read(i, 1)[0]);
@@ -118,6 +132,7 @@ void RunOutputs::write(Checkpoint point) {
 void RunOutputs::put(Checkpoint point) {
   point.inputs = inputs_;
   point.model = model_;
+  point.said_of_files = texts_of(diagnostics_);
   write_checkpoint(directory_ / "restart.nc", std::move(point));
   last_point_.reset();
 }

@@ -106,10 +106,11 @@ StudyIdentity identity_of(const StudyFile& study, const StudyCase* study_case) {
 StudyRows::StudyRows(std::filesystem::path file, const StudyIdentity& study, bool resume)
     : StudyRows(std::move(file)) {  // which is closed whatever is thrown
   signal(SIGXFSZ, SIG_IGN);         // a file that may not grow is found by the write's failure
-  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (resume ? 0 : O_TRUNC), 0666);
+  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(std::strerror(errno));
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("another nurbeam study writes to it");
   if (resume) read_back(study);
+  cut_to_size();  // not before the lock: until then the rows are another's
   if (size_ == 0)
     write(Json{{"nurbeam_study_rows", 1}, {"digest", study.digest}, {"parts", study.parts}}.dump() + "\n");
 }
@@ -138,6 +139,9 @@ void StudyRows::read_back(const StudyIdentity& study) {
     }
     size_ += static_cast<long long>(line.size()) + 1;
   }
+}
+
+void StudyRows::cut_to_size() {
   if (ftruncate(descriptor_, size_) != 0) fail(std::strerror(errno));
 }
 

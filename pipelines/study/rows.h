@@ -50,6 +50,7 @@ class StudyRows {
  private:
   explicit StudyRows(std::filesystem::path file) : file_(std::move(file)) {}
   void read_back(const StudyIdentity& study);
+  void cut_to_size();
   void write(const std::string& line);
   [[noreturn]] void fail(const std::string& what) const;
 

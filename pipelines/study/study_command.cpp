@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 #include <thread>
+#include <vector>
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
@@ -135,9 +136,17 @@ int useful_jobs(int wanted, std::ostream& err) {
 constexpr std::array result_names{"study.csv",  "study.nc",  "study.json",
                                   "study.html", "best.json", "best.step"};
 
+// The study, its case and what that reads.
+std::vector<std::filesystem::path> inputs_of(const ReadyStudy& ready, const StudyOptions& options) {
+  std::vector<std::filesystem::path> inputs;
+  if (ready.study_case) inputs = ready.study_case->inputs();
+  inputs.insert(inputs.begin(), {options.file, ready.study.case_file.value_or(options.file)});
+  return inputs;
+}
+
 /// Makes the directory of the results, of a study that can run; an exit code.
 ExitCode make_directory(const ReadyStudy& ready, const StudyOptions& options, std::ostream& err) {
-  for (const std::filesystem::path& input : {options.file, ready.study.case_file.value_or(options.file)}) {
+  for (const std::filesystem::path& input : inputs_of(ready, options)) {
     const std::filesystem::path file = std::filesystem::weakly_canonical(input);
     const bool is_result = std::ranges::count(result_names, file.filename().string()) > 0;
     if (!is_result ||

@@ -296,6 +296,19 @@ TEST(ExportCurves, BrepGivesEveryCubicOfTheCorpusBackInMillimetresOnly) {
   EXPECT_THROW((void)export_curves(file, written, LengthUnit::metre), std::invalid_argument);
 }
 
+// The range of an edge is written with 15 digits: beyond the last knot of the one, before that of the other.
+TEST(ExportCurves, BrepGivesCurvesBackWhateverTheirParameter) {
+  const ScratchDirectory scratch;
+  const fs::path file = scratch.path() / "curve.brep";
+  for (const double end : {1376870.8545450075, 1376870.8545450035}) {
+    const NurbsCurve arc(KnotVector(2, {0, 0, 0, end, end, end}), quarter_circle(876543.21).control_points());
+    ASSERT_TRUE(export_curves(file, {{"arc", arc}}, LengthUnit::millimetre).empty());
+    const ImportReport report = import_curves(file);
+    ASSERT_EQ(report.curves.size(), 1U) << end;
+    expect_same_curves(report.curves[0].curve, arc, 2e-15, "arc");
+  }
+}
+
 TEST(ExportCurves, TheSchemaOfAStepFileIsTheOneAskedFor) {
   const ScratchDirectory scratch;
   const fs::path file = scratch.path() / "curve.step";

@@ -11,6 +11,8 @@
 #include <GProp_GProps.hxx>
 #include <Geom_Curve.hxx>
 #include <IGESControl_Reader.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESGeom_BSplineCurve.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -312,6 +314,34 @@ TEST_P(WrittenFile, OfARingIsOneClosedEdgeWithOneVertexToASecondReader) {
     EXPECT_TRUE(BRep_Tool::IsClosed(edges[0]));
     EXPECT_TRUE(TopExp::FirstVertex(edges[0]).IsSame(TopExp::LastVertex(edges[0])));
     EXPECT_TRUE(ShapeAnalysis_Edge().IsClosed3d(edges[0]));
+  }
+}
+
+// The ring ends where it starts but for round-off.
+TEST(WrittenIges, ACurveSaysWhetherItIsClosedAndInWhichPlaneItLies) {
+  const Eigen::Vector3d x = Eigen::Vector3d(2, 1, 2) / 3, y = Eigen::Vector3d(-2, 2, 1) / 3;
+  struct Expected {
+    NurbsCurve curve;
+    bool closed;
+    Eigen::Vector3d normal;  // zero where there is no one plane
+  };
+  const Expected expected[] = {{placed(arc(0.3, 2 * pi), {5, -7, 11}, x, y), true, x.cross(y)},
+                               {placed(arc(0.3, pi / 3), {5, -7, 11}, x, y), false, x.cross(y)},
+                               {line({0, 0, 0}, {1, 2, 3}), false, {0, 0, 0}},
+                               {cable(8), false, {0, 0, 0}}};
+  for (const auto& [curve, closed, normal] : expected) {
+    const ScratchDirectory scratch;
+    const fs::path file = scratch.path() / "curve.igs";
+    ASSERT_TRUE(export_curves(file, {{"", curve}}, LengthUnit::millimetre).empty());
+    IGESControl_Reader reader;
+    ASSERT_EQ(reader.ReadFile(file.c_str()), IFSelect_RetDone);
+    const auto written = Handle(IGESGeom_BSplineCurve)::DownCast(reader.IGESModel()->Value(1));
+    ASSERT_FALSE(written.IsNull());
+    EXPECT_EQ(written->IsClosed(), closed);
+    EXPECT_EQ(written->IsPlanar(), !normal.isZero());
+    const gp_XYZ n = written->Normal();
+    EXPECT_NEAR(Eigen::Vector3d(n.X(), n.Y(), n.Z()).cross(normal).norm(), 0, 1e-12);
+    EXPECT_NEAR(n.Modulus(), normal.norm(), 1e-12);
   }
 }
 

@@ -153,10 +153,21 @@ TEST(BeamJoints, ThatCannotBeAreRefused) {
   expect_joint_refused(
       {R"(supports=[{"beam": "column", "at": "end", "type": "clamped"}, {"beam": "arm", "at": "start", "type": "pinned"}])"},
       {"supports[1]", "supports[0] already holds a beam that is joined to it"});
-  expect_joint_refused({R"(bodies=[{"name": "bead", "mass": 1}])",
-                        R"(sliding_joints=[{"body": "bead", "beam": "column", "at": {"fraction": 0.2}}])",
-                        "beams[1].axis.polyline=[[0, 0.5, 0], [1, 0.5, 0]]"},
-                       {"over which body \"bead\" slides"});
+  const std::string at_half = "beams[1].axis.polyline=[[0, 0.5, 0], [1, 0.5, 0]]";
+  expect_joint_refused(
+      {at_half,
+       R"(supports=[{"beam": "column", "at": {"length": 0.500000000001}, "type": "pinned"}, {"beam": "arm", "at": "start", "type": "pinned"}])"},
+      {"supports[1]", "supports[0] already holds a beam that is joined to it"});
+  expect_joint_refused(
+      {R"(beams=[{"name": "column", "axis": {"polyline": [[0, 0, 0], [0, 1, 0]]}, "section": {"radius": 0.01}, "material": "steel"},
+                 {"name": "arm", "axis": {"polyline": [[0, 0.5, 0], [1, 0.5, 0]]}, "section": {"radius": 0.01}, "material": "steel"},
+                 {"name": "strut", "axis": {"polyline": [[0, 0.500000000001, 0], [1, 0, 0]]}, "section": {"radius": 0.01}, "material": "steel"}])",
+       R"(joints=[{"beams": ["column", "arm"], "type": "hinged"}, {"beams": ["arm", "strut"], "type": "hinged"}, {"beams": ["column", "strut"], "type": "hinged"}])"},
+      {"joints[2]", "joined at (0, 0.5, 0) m already"});
+  expect_joint_refused(
+      {R"(bodies=[{"name": "bead", "mass": 1}])",
+       R"(sliding_joints=[{"body": "bead", "beam": "column", "at": {"fraction": 0.2}}])", at_half},
+      {"over which body \"bead\" slides"});
   expect_joint_refused({"gravity=[0, 0, -1]", "beams[1].axis.polyline=[[0, 1, 0], [0, 2, 0]]",
                         "loads[0].force=[1, 0, 0]", "beams[0].torsion=false", "beams[1].torsion=false"},
                        {"joints[0].type", "run in one line"});

@@ -181,6 +181,39 @@ TEST(Process, AnInterruptedRunIsResumedByItsOwnCaseOnly) {
   EXPECT_GT(lines_in(out / "histories.csv"), before);
 }
 
+std::string diagnostics_in(const std::filesystem::path& out) {
+  const std::string summary = content_of(out / "run.json");
+  const std::size_t begin = summary.find("\"diagnostics\""), end = summary.find(']', begin);
+  return begin == std::string::npos ? "" : summary.substr(begin, end - begin);
+}
+
+// Of the start from equilibrium, which a resumed run does not search anew.
+TEST(Process, AResumedRunWarnsOfWhatTheRunWarnedOf) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "results";
+  const auto column = directory.write("column.json", R"({
+    "nurbeam": 1,
+    "beams": [{"name": "column", "axis": {"polyline": [[0, 0, 0], [0, 0, 1]]}, "section": {"radius": 0.005},
+               "material": {"name": "steel", "damping": 1e-4}}],
+    "supports": [{"beam": "column", "at": "start", "type": "clamped"}],
+    "loads": [{"beam": "column", "at": "end", "force": [0, 0, -400]}],
+    "analysis": {"end_time": 500, "step": 1e-3, "initial": "equilibrium"},
+    "output": {"every": 1e-3, "report": false}})");
+  const std::string command = "run " + column.string() + " --quiet --out " + out.string();
+  Process first(directory, command);
+  ASSERT_TRUE(wait_for_frames(out)) << first.messages();
+  first.send(SIGINT);
+  ASSERT_EQ(first.code(), interrupted) << first.messages();
+  const std::string said = diagnostics_in(out);
+  EXPECT_NE(said.find("snaps through or buckles"), std::string::npos) << said;
+  const std::size_t before = lines_in(out / "histories.csv");
+  Process second(directory, command + " --resume");
+  ASSERT_TRUE(wait_for_frames(out, before + 4)) << second.messages();
+  second.send(SIGINT);
+  ASSERT_EQ(second.code(), interrupted) << second.messages();
+  EXPECT_EQ(diagnostics_in(out), said);
+}
+
 TEST(Process, ARunLeavesALogOfWhatItHasSaid) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "results";

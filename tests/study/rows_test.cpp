@@ -29,7 +29,21 @@ TEST(StudyRows, GoOnWhereTheyEnded) {
   EXPECT_EQ(rows.stored().at(2).quantities, (std::vector<double>{1e-300}));
   rows.append(variant_number(3));
   rows.synchronise();
-  EXPECT_THROW(StudyRows(file, {"digest", {}}, true), StudyRowsError) << "another one holds them";
+}
+
+TEST(StudyRows, OutliveASecondStudyThatIsRefused) {
+  const test::TemporaryDirectory directory;
+  const auto file = directory.path() / "study.rows";
+  {
+    StudyRows rows(file, {"digest", {}}, false);
+    rows.append(variant_number(0));
+    for (const bool resume : {true, false})
+      EXPECT_THROW(StudyRows(file, {"digest", {}}, resume), StudyRowsError) << "another one holds them";
+    rows.append(variant_number(1));
+  }
+  EXPECT_EQ(StudyRows(file, {"digest", {}}, true).stored().size(), 2U);
+  EXPECT_EQ(StudyRows(file, {"digest", {}}, false).stored().size(), 0U);
+  EXPECT_EQ(StudyRows(file, {"digest", {}}, true).stored().size(), 0U) << "begun anew";
 }
 
 TEST(StudyRows, OfAnotherStudyAreRefused) {

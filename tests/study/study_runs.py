@@ -208,6 +208,17 @@ def bad_files_are_refused():
     done = run(write(scratch / "bad"), "--out", scratch / "bad/none", "--resume", expected=2)
     assert "there is no study to resume" in done.stderr, done.stderr
     assert not (scratch / "bad/none").exists()
+    for place in (CASE, STUDY):
+        here = scratch / "bad/place"
+        case, study = (here / name for name in (("best.json", "s.json") if place is CASE else ("c.json", "study.json")))
+        here.mkdir(exist_ok=True)
+        case.write_text(json.dumps(CASE))
+        study.write_text(json.dumps({**STUDY, "case": case.name}))
+        taken = case if place is CASE else study
+        kept = taken.read_text()
+        done = run(study, "--out", here, expected=2)
+        assert f"{taken}: is an input of this study, and a name of its results" in done.stderr, done.stderr
+        assert taken.read_text() == kept and not (here / "study.rows").exists()
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 2}}})
     run(changed, "--out", scratch / "bad/changed")
     changed = write(scratch / "bad", {**STUDY, "plan": {"sobol": {"count": 3}}})

@@ -359,6 +359,23 @@ TEST_F(CaseFileTest, TimeTablesMustIncrease) {
   EXPECT_EQ(messages(negative).find("is empty"), std::string::npos) << messages(negative);
 }
 
+TEST_F(CaseFileTest, CadFilesOfStaticsAreOfLoadSteps) {
+  const auto of = [](const char* steps, const char* times) -> std::vector<std::string> {
+    return {std::string(R"(analysis={"type": "static")") + steps + "}",
+            std::string(R"(output={"cad": {"times": )") + times + "}}"};
+  };
+  expect_error(of(R"(, "load_steps": [0.5, 1])", "[0.5, 0.7]"), "output.cad.times[1]",
+               {"is 0.7", "no factor of analysis.load_steps", "one of these: 0.5, 1"});
+  expect_error(of(R"(, "load_steps": 20)", "[0.33]"), "output.cad.times[0]", {"the nearest is 0.35"});
+  for (const auto& [steps, times] : {std::pair(R"(, "load_steps": 3)", "[0.3333333333333333, 1]"),
+                                     {R"(, "load_steps": [0.5, 1])", R"("all")"},
+                                     {R"(, "load_steps": [0.5, 2])", "[2]"},
+                                     {"", "[0.7]"}}) {
+    const CaseFileReport valid = read(smallest_case, of(steps, times));
+    EXPECT_TRUE(valid.value) << messages(valid);
+  }
+}
+
 TEST_F(CaseFileTest, ImpossibleAxesAreRefused) {
   expect_error({R"(beams[0].axis={"polyline": [[0,0,0],[0,0,0]]})"}, "beams[0].axis.polyline[1]",
                {"same point"});

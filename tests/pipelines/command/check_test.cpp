@@ -32,6 +32,10 @@ TEST(CheckCase, CountsForcesMomentsAndLoadsPerLengthApart) {
   const std::string out = checked({R"(loads=[{"beam": "cable", "at": "end", "force": [0, 0, -1]},
     {"beam": "cable", "at": "end", "moment": [0, 1, 0]}, {"beam": "cable", "force_per_length": [0, 0, -1]}])"});
   EXPECT_NE(out.find("point loads 1, moments 1, distributed loads 1"), std::string::npos) << out;
+  const std::string twisted =
+      checked({"beams[0].torsion=true", R"(loads=[{"beam": "cable", "torque_per_length": 3},
+    {"beam": "cable", "force_per_length": [0, 0, -1]}])"});
+  EXPECT_NE(twisted.find("distributed loads 2"), std::string::npos) << twisted;
 }
 
 TEST(CheckCase, SaysOfEachBeamInSpaceWhetherItHasTorsionAndWhy) {

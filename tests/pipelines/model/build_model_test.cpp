@@ -193,6 +193,50 @@ double greatest_kink(const BuildReport& report) {
       beam.is_ring() ? (beam.curve.tangent(beam.curve.length(), true) - beam.curve.tangent(0)).norm() : 0.0);
 }
 
+// Within the 1e-6 m of the "approximation_tolerance"; the second is a parabola as a quartic.
+TEST(BuildModel, ACurveOfDegreeAboveThreeIsToldWithItsDeviationWhereItIsNoCubic) {
+  const auto told = [](const std::string& points) -> std::string {
+    const test::TemporaryDirectory directory;
+    const CaseFileReport report =
+        read_case_file(directory.write("case.json", test::smallest_case),
+                       {R"(beams[0].axis={"nurbs": {"degree": 4, "knots": [0, 0, 0, 0, 0, 1, 1, 1, 1, 1],
+                           "control_points": )" +
+                        points + "}}"});
+    for (const Diagnostic& d : build_model(report.value.value()).diagnostics)
+      if (d.message.find("was approximated") != std::string::npos) return d.where + ": " + d.message;
+    return "";
+  };
+  const std::string quartic = told("[[0, 0, 0], [0.2, 0, 0.4], [0.5, 0, -0.3], [0.7, 0, 0.5], [1, 0, 0]]");
+  EXPECT_NE(quartic.find("beams[0].axis: a curve of degree above 3 was approximated; largest deviation "),
+            std::string::npos)
+      << quartic;
+  EXPECT_EQ(told("[[0, 0, 0], [0.25, 0, 0.3], [0.5, 0, 0.4], [0.75, 0, 0.3], [1, 0, 0]]"), "");
+}
+
+// A quarter circle of 1 m: with t = pi / 8 the middle of each of two elements has a radius of cos t + t sin t
+// / 2.
+TEST(BuildModel, PolynomialElementsAreToldWithTheirDistanceFromTheDrawing) {
+  const auto told = [](const std::string& element, const std::string& count, const std::string& axis) {
+    const test::TemporaryDirectory directory;
+    const CaseFileReport report =
+        read_case_file(directory.write("case.json", test::smallest_case),
+                       {"gravity=[0, -9.81, 0]", "beams[0].element=" + element,
+                        "beams[0].elements={\"count\": " + count + "}", "beams[0].axis=" + axis});
+    std::string text;
+    for (const Diagnostic& d : build_model(report.value.value()).diagnostics)
+      text += d.where + ": " + d.message + "\n";
+    return text;
+  };
+  const std::string arc =
+      R"({"arc": {"center": [0, 0, 0], "start": [1, 0, 0], "end": [0, 1, 0], "normal": [0, 0, 1]}})";
+  const std::string coarse = told("ale-ancf", "2", arc);
+  for (const char* part : {"beams[0].element: is \"ale-ancf\"", "by up to 0.000981 m", "\"ale-rancf\""})
+    EXPECT_NE(coarse.find(part), std::string::npos) << coarse;
+  EXPECT_EQ(told("ale-rancf", "2", arc), "");
+  EXPECT_EQ(told("ale-ancf", "40", arc), "");
+  EXPECT_EQ(told("ale-ancf", "2", R"({"polyline": [[0, 0, 0], [1, 1, 0]]})"), "");
+}
+
 // An element beside a kink would hold its angle in the drawn direction while the beam turns.
 TEST(BuildModel, KinksOfTheDigitsOfADrawingGoWithANote) {
   const BuildReport line = built({"beams[0].axis={\"polyline\": [[0, 0, 0], [1, 0, 0], [2, 5e-5, 0]]}",

@@ -200,6 +200,21 @@ TEST(Restart, WithIdaARunGoesOnWithinItsTolerance) {
       1e-5);
 }
 
+TEST(Restart, WhatIsToBeWarnedOfIsKept) {
+  Checkpoint point = play(falling_beam(), options_with(GeneralizedAlpha{}, 1e-3)).points.front();
+  EXPECT_FALSE(stored(point).report.diverges);
+  EXPECT_FALSE(stored(point).report.snap);
+  point.report.diverges = true;
+  point.report.snap = {.load = 0.5, .t = 0};
+  point.said_of_files = {"solid.step", "not written", "other.step", "not written either"};
+  const Checkpoint read = stored(point);
+  EXPECT_TRUE(read.report.diverges);
+  ASSERT_TRUE(read.report.snap);
+  EXPECT_EQ(read.report.snap->load, 0.5);
+  EXPECT_EQ(read.report.snap->t, 0);
+  EXPECT_EQ(read.said_of_files, point.said_of_files);
+}
+
 TEST(Restart, APointThatIsCutShortOrOfAnotherKindIsNamed) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "restart.nc";
