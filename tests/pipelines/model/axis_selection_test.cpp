@@ -102,6 +102,34 @@ TEST(AxisSelection, SeveralCurvesOfOneNameAreTheirChain) {
   expect_error({.curve_name = "bent"}, "curve", {"several curves are named \"bent\"", "index"}, report);
 }
 
+ImportReport drawing(const std::vector<NurbsCurve>& curves) {
+  ImportReport report{
+      .file = "drawing.dxf", .unit = "m", .resolution = 1e-6, .curves = {}, .diagnostics = {}};
+  for (const NurbsCurve& each : curves) report.curves.push_back({.entity = "curve", .curve = each});
+  return report;
+}
+
+void expect_chain(const AxisFile& axis, const ImportReport& report, const Chain& expected) {
+  const AxisSelection selection = select_axis(axis, report);
+  ASSERT_EQ(selection.chains.size(), 1U) << selection.error;
+  EXPECT_EQ(selection.chains[0].curves, expected.curves);
+  EXPECT_EQ(selection.chains[0].reversed, expected.reversed);
+  EXPECT_EQ(selection.chains[0].closed, expected.closed);
+}
+
+// With its last control point doubled it has no speed there.
+TEST(AxisSelection, ASplineThatStandsStillAtItsEndGoesOnSmoothly) {
+  Eigen::Matrix3Xd points(3, 4);
+  points << 0, 1, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0;
+  const NurbsCurve slowing =
+      make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 1, 1, 1}), points, Eigen::Vector4d::Ones());
+  const NurbsCurve on = line({2, 0, 0}, {4, 0, 0}), aside = line({2, 0, 0}, {4, 1, 0});
+  expect_chain({.curve_index = 1, .chain = true}, drawing({slowing, on}), {{0, 1}, {false, false}, false});
+  expect_chain({.curve_index = 2, .chain = true}, drawing({slowing.reversed(), on.reversed()}),
+               {{1, 0}, {false, false}, false});
+  expect_chain({.curve_index = 1, .chain = true}, drawing({slowing, aside}), {{0}, {false}, false});
+}
+
 TEST(AxisSelection, PrefersFreeCurvesToCentreLinesToEdgesOfFaces) {
   ImportReport report = wires();
   for (ImportedCurve& c : report.curves) c.free = false;
