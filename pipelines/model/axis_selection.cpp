@@ -118,21 +118,34 @@ Eigen::Vector3d inward_direction(const NurbsCurve& curve, bool from_end) {
   return legs.col(i).normalized();
 }
 
-// Whether a curve of the chain goes on into the next one, without a corner.
+// Whether a curve of the chain goes on into the next one, after the last into the first, without a corner.
 bool goes_on_smoothly(const Chain& chain, std::size_t i, const ImportReport& report) {
+  const std::size_t j = (i + 1) % chain.curves.size();
   const Eigen::Vector3d back = inward_direction(report.curves[chain.curves[i]].curve, !chain.reversed[i]);
-  const Eigen::Vector3d on =
-      inward_direction(report.curves[chain.curves[i + 1]].curve, chain.reversed[i + 1]);
+  const Eigen::Vector3d on = inward_direction(report.curves[chain.curves[j]].curve, chain.reversed[j]);
   return (on + back).norm() < default_corner_angle;
+}
+
+// The closed chain begun behind a corner, so that none of its smooth runs goes on past its ends; without a
+// corner it stays as it is.
+Chain begun_behind_a_corner(Chain chain, const ImportReport& report) {
+  const std::size_t count = chain.curves.size();
+  std::size_t corner = 0;
+  while (corner < count && goes_on_smoothly(chain, corner, report)) ++corner;
+  const auto first = static_cast<std::ptrdiff_t>(corner < count ? (corner + 1) % count : 0);
+  std::rotate(chain.curves.begin(), chain.curves.begin() + first, chain.curves.end());
+  std::rotate(chain.reversed.begin(), chain.reversed.begin() + first, chain.reversed.end());
+  return chain;
 }
 
 // The connected curves that continue without a corner on both sides of one curve.
 Chain smooth_chain_around(const ImportReport& report, const Indices& candidates, int chosen,
                           double tolerance) {
-  for (const Chain& chain : chains_among(report, candidates, tolerance)) {
-    const auto at = std::find(chain.curves.begin(), chain.curves.end(), chosen);
-    if (at == chain.curves.end()) continue;
+  for (const Chain& whole : chains_among(report, candidates, tolerance)) {
+    if (std::find(whole.curves.begin(), whole.curves.end(), chosen) == whole.curves.end()) continue;
+    const Chain chain = whole.closed ? begun_behind_a_corner(whole, report) : whole;
     const auto smooth = [&](std::size_t i) { return goes_on_smoothly(chain, i, report); };
+    const auto at = std::find(chain.curves.begin(), chain.curves.end(), chosen);
     std::size_t first = at - chain.curves.begin(), last = first;
     while (first > 0 && smooth(first - 1)) --first;
     while (last + 1 < chain.curves.size() && smooth(last)) ++last;

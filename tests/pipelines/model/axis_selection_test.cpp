@@ -117,6 +117,34 @@ void expect_chain(const AxisFile& axis, const ImportReport& report, const Chain&
   EXPECT_EQ(selection.chains[0].closed, expected.closed);
 }
 
+TEST(AxisSelection, TheSmoothChainOfACurveGoesOnPastThePlaceWhereALoopBegins) {
+  const ImportReport square =
+      drawing({line({1, 0, 0}, {2, 0, 0}), line({2, 0, 0}, {2, 2, 0}), line({2, 2, 0}, {0, 2, 0}),
+               line({0, 2, 0}, {0, 0, 0}), line({1, 0, 0}, {0, 0, 0})});
+  for (const int index : {1, 5})
+    expect_chain({.curve_index = index, .chain = true}, square, {{4, 0}, {true, false}, false});
+  expect_chain({.curve_index = 2, .chain = true}, square, {{1}, {false}, false});
+}
+
+// The quarters of the unit circle.
+std::vector<NurbsCurve> quarters() {
+  std::vector<NurbsCurve> found;
+  for (const RationalCubic& quarter : BezierPath::from_nurbs(unit_circle(), 1e-9).segments)
+    found.push_back(BezierPath{{quarter}, {0, 1}, 0}.to_nurbs());
+  return found;
+}
+
+TEST(AxisSelection, ALoopWithoutCornersIsAClosedChainAndOneOfOneCornerBeginsThere) {
+  expect_chain({.curve_index = 3, .chain = true}, drawing(quarters()),
+               {{0, 1, 2, 3}, {false, false, false, false}, true});
+  std::vector<NurbsCurve> drop = quarters();
+  drop.back() = line({0, -1, 0}, {1, -1, 0});
+  drop.push_back(line({1, -1, 0}, {1, 0, 0}));
+  for (int index = 1; index <= 5; ++index)
+    expect_chain({.curve_index = index, .chain = true}, drawing(drop),
+                 {{4, 0, 1, 2, 3}, {false, false, false, false, false}, true});
+}
+
 // With its last control point doubled it has no speed there.
 TEST(AxisSelection, ASplineThatStandsStillAtItsEndGoesOnSmoothly) {
   Eigen::Matrix3Xd points(3, 4);
