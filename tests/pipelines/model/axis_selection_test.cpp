@@ -273,6 +273,32 @@ TEST(AxisSelection, OneOfSeveralChainsIsNamedByItsNumber) {
   EXPECT_TRUE(says(wrong, Severity::error, "loads[0].beam: there is no beam \"net 5\""));
 }
 
+TEST(AxisSelection, NothingElseIsNamedLikeTheBeamOfAChain) {
+  const test::TemporaryDirectory directory;
+  star(directory);
+  const auto beam = [](const std::string& name, const std::string& axis) {
+    return R"({"name": ")" + name + R"(", "axis": )" + axis +
+           R"(, "section": {"radius": 0.01}, "material": {"density": 7200, "youngs_modulus": 20e6}})";
+  };
+  const std::string every_chain = R"({"file": "star.step", "chains": "all"})";
+  const auto with_beam = [&](const std::string& name, const std::string& axis) {
+    return build_axis(directory, {"beams=[" + beam("net", every_chain) + ", " + beam(name, axis) + "]"});
+  };
+  const std::string straight = R"({"polyline": [[0, 9, 0], [1, 9, 0]]})";
+  const BuildReport named_alike = with_beam("net 4", straight);
+  EXPECT_FALSE(named_alike.value);
+  EXPECT_TRUE(
+      says(named_alike, Severity::error,
+           "beams[1].name: is \"net 4\", the name of a beam that \"net\" becomes by \"chains\": \"all\""));
+  EXPECT_FALSE(with_beam("net 4", every_chain).value);
+  EXPECT_FALSE(says(with_beam("net 5", straight), Severity::error, ".name"));
+  const BuildReport spring =
+      build_axis(directory, {R"(connectors=[{"name": "net 1", "from": {"beam": "net 4", "at": "end"},
+                                  "to": {"point": [3, 6, 0]}, "stiffness": 5}])"});
+  EXPECT_FALSE(spring.value);
+  EXPECT_TRUE(says(spring, Severity::error, "connectors[0].name: is \"net 1\""));
+}
+
 TEST(AxisSelection, ABodySlidesOnOneBeamOnly) {
   const test::TemporaryDirectory directory;
   star(directory);
