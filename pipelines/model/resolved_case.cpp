@@ -87,7 +87,8 @@ CaseSection pipe_section(const CaseBeam& beam, const Chain& chain, CadFiles& fil
   return {.area = std::numbers::pi * (outer * outer - inner * inner),
           .second_moment = std::numbers::pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
           .radius = outer,
-          .bore = inner};
+          .bore = inner,
+          .torsion_constant = beam.section.torsion_constant};
 }
 
 // What is said of a beam made of a chain must not be said of another one, nor may a connector head a column

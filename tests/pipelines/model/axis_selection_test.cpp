@@ -380,6 +380,19 @@ TEST(PipeSection, IsThatOfTheDrawnPipe) {
   EXPECT_TRUE(says(edge, Severity::error, "beams[0].section.from: is \"cad\", but curve 3 of"));
 }
 
+TEST(PipeSection, KeepsTheTorsionConstantThatIsGiven) {
+  const test::TemporaryDirectory directory;
+  const std::string file = test::source_directory() / "tests/corpus/pygem-pipe.step";
+  const CaseFileReport report =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {"beams[0].axis={\"file\": \"" + file + "\"}", "beams[0].torsion=true",
+                      "beams[0].material.poissons_ratio=0.25",
+                      R"(beams[0].section={"from": "cad", "torsion_constant": 1e-3})"});
+  const BuildReport pipe = build_model(report.value.value());
+  ASSERT_TRUE(pipe.value);
+  EXPECT_NEAR(pipe.value->model.beams[0].properties.sections->torsion, 20e6 / 2.5 * 1e-3, 1e-6);
+}
+
 TEST(PipeSection, NeedsACentreLine) {
   const test::TemporaryDirectory directory;
   const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case),
