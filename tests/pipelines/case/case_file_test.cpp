@@ -562,11 +562,25 @@ TEST_F(CaseFileTest, NestingIsLimited) {
 
 TEST_F(CaseFileTest, AnAxisFileThatIsNoFileSaysWhatItIs) {
   const auto axis = [](const std::string& file) { return "beams[0].axis={\"file\": \"" + file + "\"}"; };
-  expect_error({axis(".")}, "beams[0].axis.file", {"is a directory", "\"zipline.step\""});
+  expect_error({axis(".")}, "beams[0].axis.file",
+               {"is a directory", "expected a STEP, IGES, DXF or BREP file", "\"zipline.step\""});
   expect_error({axis("/dev/zero")}, "beams[0].axis.file", {"\"/dev/zero\" is a device"});
   const CaseFileReport device = read_case_file("/dev/zero");
   EXPECT_FALSE(device.value);
   EXPECT_NE(messages(device).find("/dev/zero | is a device"), std::string::npos) << messages(device);
+}
+
+TEST_F(CaseFileTest, AMistypedAxisFileIsSoughtAmongAllThatAreRead) {
+  directory_.write("notes.txt", "");
+  for (const char* name : {"drawing.dxf", "Drawing.IGES", "drawing.brep", "drawing.BRP", "drawing.stpZ",
+                           "drawing.zip", "drawing.step.gz"}) {
+    directory_.write(name, "");
+    const std::string mistyped = std::string(name).erase(4, 1);
+    expect_error({R"(beams[0].axis={"file": ")" + mistyped + "\"}"}, "beams[0].axis.file",
+                 {"there is no file", std::string("did you mean \"") + name + "\"?", "\"zipline.step\""});
+  }
+  const CaseFileReport all = read(smallest_case, {R"(beams[0].axis={"file": "absent"})"});
+  EXPECT_EQ(messages(all).find("notes.txt"), std::string::npos) << messages(all);
 }
 
 TEST_F(CaseFileTest, SettingsWithoutEffectInAStaticAnalysisAreWarnedOf) {
