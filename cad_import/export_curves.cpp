@@ -4,23 +4,18 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
-#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "cad_import/files/ask_program.h"
 #include "cad_import/files/atomic_file.h"
+#include "cad_import/files/cad_file_name.h"
 #include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // BREP declares no unit: what reads it takes it for millimetres.
 void check_unit(const fs::path& file, CadFormat format, LengthUnit unit) {
@@ -91,16 +86,11 @@ WriteCurvesRequest request_for(const CurvesFile& file) {
 }  // namespace
 
 CadFormat written_format(const fs::path& file) {
-  static const std::map<std::string, CadFormat> known{{".step", CadFormat::step}, {".stp", CadFormat::step},
-                                                      {".igs", CadFormat::iges},  {".iges", CadFormat::iges},
-                                                      {".dxf", CadFormat::dxf},   {".brep", CadFormat::brep},
-                                                      {".brp", CadFormat::brep}};
-  const std::string extension = lower(file.extension().string());
-  const auto at = known.find(extension);
-  if (at == known.end())
-    throw std::invalid_argument("the extension '" + extension + "' of " + file.string() +
+  const std::optional<CadFormat> format = format_by_name(file);
+  if (!format)
+    throw std::invalid_argument("the extension '" + file.extension().string() + "' of " + file.string() +
                                 " names no CAD format; known are .step .stp .igs .iges .dxf .brep .brp");
-  return at->second;
+  return *format;
 }
 
 std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<NamedCurve>& curves,

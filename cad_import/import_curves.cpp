@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "cad_import/files/ask_program.h"
+#include "cad_import/files/cad_file_name.h"
 #include "cad_import/report/report_bytes.h"
 #include "nurbs/number_text.h"
 
@@ -25,15 +26,15 @@ std::string megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20)
 
 // Why the path cannot hold a CAD file at all; nothing if it may.
 std::optional<std::string> unusable(const fs::path& file, std::size_t size_limit) {
-  constexpr const char* expected = "; expected a STEP, IGES, DXF or BREP file";
+  const std::string expected = std::string("; expected a ") + cad_formats + " file";
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) return std::string("there is no such file") + expected;
+  if (status.type() == fs::file_type::not_found) return "there is no such file" + expected;
   if (error) return error.message() + expected;
-  if (fs::is_directory(status)) return std::string("it is a directory") + expected;
-  if (!fs::is_regular_file(status)) return std::string("it is not a regular file") + expected;
+  if (fs::is_directory(status)) return "it is a directory" + expected;
+  if (!fs::is_regular_file(status)) return "it is not a regular file" + expected;
   const std::uintmax_t size = fs::file_size(file, error);
-  if (size == 0) return std::string("the file is empty") + expected;
+  if (size == 0) return "the file is empty" + expected;
   if (size > size_limit)
     return "the file has " + megabytes(size) + ", more than the limit of " + megabytes(size_limit) +
            "; export only the curves that are needed, or raise size_limit_bytes";

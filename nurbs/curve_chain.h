@@ -14,8 +14,8 @@ struct Chain {
 };
 
 /// Orders and orients curves whose end points coincide within `tolerance` [m] into maximal chains; a point
-/// where three or more ends meet ends the chains there. The first curve of a chain keeps its direction if it
-/// can.
+/// where three or more ends meet ends the chains there. A chain runs as the first of its curves in the input
+/// does; an open one is turned where the curves at both its ends would then run backwards.
 std::vector<Chain> find_chains(const std::vector<NurbsCurve>& curves, double tolerance);
 
 /// The cubics of the curves of a chain one after another as one path (breaks: cumulative over the curves).

@@ -74,13 +74,16 @@ RationalCubic ending_at(const RationalCubic& cubic, const Eigen::Vector3d& point
 }
 
 void drop_slivers(std::span<const RationalCubic> given, double sliver, RegularSegments& result) {
+  double run = 0;  // of slivers one after another, which together may be long [m]
   for (const RationalCubic& cubic : given) {
     if (polygon_length(cubic) > sliver) {
+      run = 0;
       result.segments.push_back(cubic);
       continue;
     }
     ++result.dropped;
-    result.deviation = std::max(result.deviation, polygon_length(cubic));
+    run += polygon_length(cubic);
+    result.deviation = std::max(result.deviation, run);
     if (!result.segments.empty())
       result.segments.back() = ending_at(result.segments.back(), cubic.control_point(3));
   }

@@ -9,9 +9,10 @@ namespace nurbeam {
 /// Cubics that meet end to end, none of them degenerate.
 struct RegularSegments {
   std::vector<RationalCubic> segments;
-  int dropped = 0;       ///< slivers left out
-  int replaced = 0;      ///< cubics that had no speed at an end
-  double deviation = 0;  ///< largest distance from what was given, measured; of a sliver its length [m]
+  int dropped = 0;   ///< slivers left out
+  int replaced = 0;  ///< cubics that had no speed at an end
+  /// Largest distance from what was given, measured; of slivers one after another their length together [m].
+  double deviation = 0;
 };
 
 /// Length of the control polygon, which is no less than that of the cubic [m].

@@ -47,12 +47,16 @@ NurbsCurve polyline(const std::vector<Eigen::Vector3d>& places) {
   return make_nurbs_curve(KnotVector(1, std::move(knots)), points, Eigen::VectorXd::Ones(points.cols()));
 }
 
-/// Counterclockwise; a whole turn where it is one but for the digits that files leave.
-double sweep_of(double from, double to, double turn) {
-  const double digits = 2e-7 * turn;  // six decimals of radians
+/// Counterclockwise; a whole turn where it is one but for the digits that files leave. What is a little more
+/// than none is one where the end was written a turn behind the start, or where its arc, of this radius, has
+/// no length but that of digits.
+double sweep_of(double from, double to, double turn, double radius) {
+  const double digits = 2e-7 * turn;              // six decimals of radians
+  constexpr double digits_of_coordinates = 1e-6;  // of the drawing's unit
   double sweep = std::fmod(to - from, turn);
   if (sweep < 0) sweep += turn;
-  return sweep <= digits || sweep >= turn - digits ? turn : sweep;
+  const bool turned = to - from > 0.5 * turn || 2 * pi * sweep / turn * radius <= digits_of_coordinates;
+  return (sweep <= digits && turned) || sweep >= turn - digits ? turn : sweep;
 }
 
 DrawnCurve circle(const DxfEntity& entity, bool whole) {
@@ -60,7 +64,7 @@ DrawnCurve circle(const DxfEntity& entity, bool whole) {
   const double radius = entity.number_of(40, 0), degrees = pi / 180;
   if (!(radius > 0)) throw std::runtime_error("its radius is not positive");
   const double from = whole ? 0 : entity.number_of(50, 0);
-  const double sweep = whole ? 360 : sweep_of(from, entity.number_of(51, 360), 360);
+  const double sweep = whole ? 360 : sweep_of(from, entity.number_of(51, 360), 360, radius);
   return {"circle", conic_arc(axes * point_at(entity, 10), radius * axes.col(0), radius * axes.col(1),
                               degrees * from, degrees * sweep)};
 }
@@ -70,7 +74,7 @@ DrawnCurve ellipse(const DxfEntity& entity) {
   const double from = entity.number_of(41, 0), to = entity.number_of(42, 2 * pi);
   if (entity.number_of(40, 1) == 0) throw std::runtime_error("its minor axis has no length");
   return {"ellipse", conic_arc(point_at(entity, 10), major, entity.number_of(40, 1) * normal.cross(major),
-                               from, sweep_of(from, to, 2 * pi))};
+                               from, sweep_of(from, to, 2 * pi, major.norm()))};
 }
 
 void check_count(std::size_t count, std::size_t points, const std::string& what) {

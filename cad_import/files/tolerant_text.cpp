@@ -7,6 +7,7 @@
 #include "cad_import/files/cad_format.h"
 #include "cad_import/files/complex_instance.h"
 #include "cad_import/files/real_text.h"
+#include "cad_import/files/simple_operator.h"
 #include "cad_import/files/simple_spline.h"
 
 namespace nurbeam {
@@ -83,8 +84,9 @@ void append_parameters(std::string_view statement, std::string& out) {
 
 /// The value of an instance, from behind "=" to before ";", as OpenCASCADE wants it; nothing where it does.
 std::optional<std::string> rewritten(std::string_view value) {
-  const std::optional<std::string> simple = simple_spline(value);
-  return simple ? simple : in_alphabetical_order(value);
+  for (const auto& simple : {simple_spline(value), simple_operator(value)})
+    if (simple) return simple;
+  return in_alphabetical_order(value);
 }
 
 void append_instance(std::string_view statement, std::string& out) {

@@ -10,6 +10,7 @@
 #include <StepGeom_CurveReplica.hxx>
 #include <StepGeom_OffsetCurve3d.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
+#include <StepRepr_ItemDefinedTransformation.hxx>
 #include <StepRepr_MappedItem.hxx>
 #include <StepRepr_ProductDefinitionShape.hxx>
 #include <StepRepr_RepresentationMap.hxx>
@@ -154,8 +155,14 @@ class StepCurves {
 
   /// A part in an assembly.
   void restate_relation(const Handle(StepRepr_RepresentationRelationshipWithTransformation) & relation) {
-    const auto known = Operator::DownCast(relation->TransformationOperator().Value());
+    const Entity given = relation->TransformationOperator().Value();
+    const auto known = Operator::DownCast(given);
     if (known.IsNull()) {
+      if (Handle(StepRepr_ItemDefinedTransformation)::DownCast(given).IsNull())
+        remarks_.warn(
+            relation,
+            "what it places stands as if it were not placed: its transformation is neither "
+            "ITEM_DEFINED_TRANSFORMATION nor CARTESIAN_TRANSFORMATION_OPERATOR_3D; place it by one");
       remarks_.attempt(relation, [&] { restate_between_axes(*relation); });
       return;
     }

@@ -11,7 +11,7 @@ namespace {
 /// Reads a STEP text past strings and comments.
 class Scanner {
  public:
-  explicit Scanner(std::string_view text, std::size_t at = 0) : text_(text), at_(at) {}
+  explicit Scanner(std::string_view text) : text_(text) {}
 
   bool ended() const { return at_ >= text_.size(); }
   std::size_t at() const { return at_; }
@@ -30,6 +30,13 @@ class Scanner {
   void seek(char wanted) {
     while (!ended() && here() != wanted) advance();
   }
+  /// To the data section, past all statements before it, whose strings and comments may name it too.
+  void seek_data() {
+    for (skip_blanks(); !ended() && !text_.substr(at_).starts_with("DATA"); skip_blanks()) {
+      seek(';');
+      if (!ended()) advance();
+    }
+  }
   /// The number after '#', which is here; -1 if none follows.
   int reference() {
     int number = -1;
@@ -47,7 +54,7 @@ class Scanner {
     return found == std::string_view::npos ? text_.size() : found + width;
   }
   std::string_view text_;
-  std::size_t at_;
+  std::size_t at_ = 0;
 };
 
 std::vector<int> references_in(std::string_view value) {
@@ -60,7 +67,8 @@ std::vector<int> references_in(std::string_view value) {
 }  // namespace
 
 StepInstances::StepInstances(std::string content) : content_(std::move(content)) {
-  Scanner scanner(content_, std::min(content_.find("DATA"), content_.size()));
+  Scanner scanner(content_);
+  scanner.seek_data();
   for (scanner.seek(';'); !scanner.ended(); scanner.seek(';')) {
     scanner.advance();
     scanner.skip_blanks();

@@ -116,7 +116,9 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   const double multiplier = m > 0 ? path.tail(m).lpNorm<Eigen::Infinity>() : 0;
   const double h = moves ? 2e-3 / fastest : multiplier > 0 ? largest_entry(kkt) / multiplier : 1;
   const Matrix geometric = (4 * slope(h / 2) - slope(h)) / 3;
-  const Matrix of_loads = tangent_matrix(loaded, state, {.stiffness = 1}) - kkt;
+  // With a load factor what is strained by itself is stiffer too, which kkt is without where it is drawn.
+  const Matrix of_loads =
+      tangent_matrix(loaded, state, {.stiffness = 1}) - tangent_matrix(system, state, {.stiffness = 1});
   // Stresses have an energy, of which differences leave less of the symmetry than of exact tangents is left.
   const Matrix unsymmetric = Matrix(of_loads - Matrix(of_loads.transpose())).topLeftCorner(n, n);
   const double allowed = 1e-9 * largest_entry(of_loads) + 1e-15 * largest_entry(kkt);

@@ -69,16 +69,12 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   if (dynamic) {
     analysis.end_time = number(json, "end_time", 0);
     analysis.step = optional_number(json, "step");
-  } else {
-    for (const char* key : {"end_time", "step", "tolerance", "initial"})
-      if (has(json, key))
-        findings.add(Severity::warning, child("analysis", key),
-                     analysis.has_modes() ? "has no effect on modes and buckling"
-                                          : "has no effect in a static analysis");
-    if (analysis.type == CaseAnalysis::Type::statics)
-      analysis.load_factors = read_load_factors(json, findings);
+    analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
+                                          analysis.step.has_value(), findings);
   }
-  if (analysis.type != CaseAnalysis::Type::statics && has(json, "load_steps"))
+  if (analysis.type == CaseAnalysis::Type::statics)
+    analysis.load_factors = read_load_factors(json, findings);
+  else if (has(json, "load_steps"))
     findings.error("analysis.load_steps",
                    "is for a static analysis; give loads a \"time\" table, or \"type\": \"static\"");
   const Json& modes = part(json, "modes");
@@ -88,8 +84,6 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   analysis.modes = {.count = optional_integer(modes, "count").value_or(CaseModes{}.count),
                     .about_equilibrium = text(modes, "about") != "drawn",
                     .bodies_held = text(modes, "bodies") != "free"};
-  analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
-                                        analysis.step.has_value(), findings);
   if (dynamic && analysis.is_explicit() && !analysis.step)
     findings.error("analysis.step", "is missing; the explicit method \"rk4\" needs a fixed step");
   return analysis;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "cad_import/files/cad_file_name.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -12,13 +12,10 @@ namespace nurbeam {
 namespace {
 
 std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {
-  static const std::set<std::string> extensions = {".step", ".stp", ".iges", ".igs",
-                                                   ".STEP", ".STP", ".IGES", ".IGS"};
   std::vector<std::string> names;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
-    if (extensions.contains(entry.path().extension().string()))
-      names.push_back(entry.path().filename().string());
+    if (is_named_as_cad_file(entry.path())) names.push_back(entry.path().filename().string());
   return names;
 }
 
@@ -129,9 +126,8 @@ void check_cad_file(const std::filesystem::path& file, const std::string& path, 
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     const bool is_directory = std::filesystem::is_directory(status);
     findings.error(path, in_quotes(file.string()) + " is a " +
-                             (is_directory ? "directory" : "device or pipe") +
-                             "; expected a STEP or IGES file" +
-                             (is_directory ? known_names("", cad_files_in(file)) : ""));
+                             (is_directory ? "directory" : "device or pipe") + "; expected a " + cad_formats +
+                             " file" + (is_directory ? known_names("", cad_files_in(file)) : ""));
   } else if (!std::filesystem::exists(status)) {
     findings.error(path, "there is no file " + in_quotes(file.string()) +
                              known_names(file.filename().string(), cad_files_in(file.parent_path())));

@@ -174,10 +174,10 @@ CaseBeamJoint read_beam_joint(const Json& json, const std::string& path, Finding
 
 CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
   CaseOutput output;
-  output.every = optional_number(json, "every");
   constexpr int default_frames = 100;
-  if (!output.every && analysis.type == CaseAnalysis::Type::dynamic)
-    output.every = std::max(analysis.end_time / default_frames, analysis.step.value_or(0));
+  if (analysis.type == CaseAnalysis::Type::dynamic)
+    output.every =
+        number(json, "every", std::max(analysis.end_time / default_frames, analysis.step.value_or(0)));
   if (has(json, "cad")) {
     const Json& cad = json["cad"];
     output.cad_formats = {"step"};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "cad_import/files/cad_file_name.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/case/shapes.h"
 #include "pipelines/case/standard_materials.h"
@@ -71,13 +72,16 @@ Shape axis() {
                "the arc turns by the right hand about it; a whole circle where start and end are one point",
                required}});
   return object(
-      {{"file", any_text(), "STEP or IGES file, relative to the case file"},
+      {{"file", any_text(),
+        std::string(cad_formats) +
+            " file, which may be packed (.stpZ, .zip, .gz), relative to the case file"},
        {"curve", either(any_text(), integer(from(1))),
         "name or index (from 1) as `nurbeam inspect` prints them", false, "file"},
        {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
        {"part", any_text(),
-        "only curves of this part (STEP) or group (IGES): its name, or the end of its path", false, "file"},
-       {"layer", any_text(), "only curves of this layer (STEP) or level (IGES)", false, "file"},
+        "only curves of this part (STEP), group (IGES) or block (DXF): its name, or the end of its path",
+        false, "file"},
+       {"layer", any_text(), "only curves of this layer (STEP, DXF) or level (IGES)", false, "file"},
        {"colour", any_text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
        {"near", point(), "the chain of curves nearest to this point", false, "file"},
        {"longest", boolean(), "the longest chain of curves", false, "file"},
@@ -93,7 +97,8 @@ Shape axis() {
 Shape section() {
   const Shape profile =
       object({{"file", any_text(),
-               "STEP or IGES file with an outline and its holes, relative to the case file", required},
+               std::string(cad_formats) + " file with an outline and its holes, relative to the case file",
+               required},
               {"in_plane", choice({"y", "x"}),
                "the profile's axis that lies in the plane of a planar model; y when omitted"}});
   const Shape size = quantity(Dimension::length, plausible(1e-9, 1e4));

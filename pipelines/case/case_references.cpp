@@ -231,8 +231,22 @@ void check_solids(const CaseFile& c, Findings& findings) {
                          "\"step\" for the curve");
 }
 
+/// Warns of what is said of a motion where there is none. Elements change their lengths in statics too.
+void check_keys_of_motions(const Json& json, const CaseAnalysis& analysis, Findings& findings) {
+  if (analysis.type == CaseAnalysis::Type::dynamic) return;
+  const std::string here = analysis.has_modes() ? "on modes and buckling" : "in a static analysis";
+  for (const char* key : {"end_time", "step", "tolerance", "initial", "integrator"})
+    if (has(part(json, "analysis"), key)) findings.warn(child("analysis", key), "has no effect " + here);
+  if (has(part(json, "output"), "every")) findings.warn("output.every", "has no effect " + here);
+  for_each_item(json, "beams", "", [&](const Json& beam, const std::string& path) {
+    if (has(part(beam, "initial"), "velocity"))
+      findings.warn(child(path, "initial.velocity"), "is of the start of a motion: nothing moves " + here);
+  });
+}
+
 /// Warns of what is said and changes nothing.
 void check_effects(const Json& json, const CaseFile& c, Findings& findings) {
+  check_keys_of_motions(json, c.analysis, findings);
   if (has(json, "air") &&
       std::none_of(c.bodies.begin(), c.bodies.end(), [](const CaseBody& body) { return body.drag_area > 0; }))
     findings.warn("air", "has no effect: it drags bodies by their \"drag_area\" alone, and none has one");

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -102,20 +103,49 @@ Chain least(const std::vector<Chain>& chains, Measure measure) {
   return chains[std::min_element(measured.begin(), measured.end()) - measured.begin()];
 }
 
+// The direction into the curve from its start or its end: to the next control point that is not the end
+// itself, as a spline may stand still there.
+Eigen::Vector3d inward_direction(const NurbsCurve& curve, bool from_end) {
+  constexpr double standing_still = 1e-9;  // of the control polygon
+  const KnotVector& knots = curve.knots();
+  const int span = knots.find_span(from_end ? knots.end() : knots.start());
+  Eigen::Matrix3Xd points = curve.bezier_points(span).colwise().hnormalized();
+  if (from_end) points = points.rowwise().reverse().eval();
+  const Eigen::Matrix3Xd legs = points.rightCols(points.cols() - 1).colwise() - points.col(0);
+  const Eigen::RowVectorXd lengths = legs.colwise().norm();
+  Eigen::Index i = 0;
+  while (i + 1 < lengths.size() && lengths(i) <= standing_still * lengths.maxCoeff()) ++i;
+  return legs.col(i).normalized();
+}
+
+// Whether a curve of the chain goes on into the next one, after the last into the first, without a corner.
+bool goes_on_smoothly(const Chain& chain, std::size_t i, const ImportReport& report) {
+  const std::size_t j = (i + 1) % chain.curves.size();
+  const Eigen::Vector3d back = inward_direction(report.curves[chain.curves[i]].curve, !chain.reversed[i]);
+  const Eigen::Vector3d on = inward_direction(report.curves[chain.curves[j]].curve, chain.reversed[j]);
+  return (on + back).norm() < default_corner_angle;
+}
+
+// The closed chain begun behind a corner, so that none of its smooth runs goes on past its ends; without a
+// corner it stays as it is.
+Chain begun_behind_a_corner(Chain chain, const ImportReport& report) {
+  const std::size_t count = chain.curves.size();
+  std::size_t corner = 0;
+  while (corner < count && goes_on_smoothly(chain, corner, report)) ++corner;
+  const auto first = static_cast<std::ptrdiff_t>(corner < count ? (corner + 1) % count : 0);
+  std::rotate(chain.curves.begin(), chain.curves.begin() + first, chain.curves.end());
+  std::rotate(chain.reversed.begin(), chain.reversed.begin() + first, chain.reversed.end());
+  return chain;
+}
+
 // The connected curves that continue without a corner on both sides of one curve.
 Chain smooth_chain_around(const ImportReport& report, const Indices& candidates, int chosen,
                           double tolerance) {
-  for (const Chain& chain : chains_among(report, candidates, tolerance)) {
+  for (const Chain& whole : chains_among(report, candidates, tolerance)) {
+    if (std::find(whole.curves.begin(), whole.curves.end(), chosen) == whole.curves.end()) continue;
+    const Chain chain = whole.closed ? begun_behind_a_corner(whole, report) : whole;
+    const auto smooth = [&](std::size_t i) { return goes_on_smoothly(chain, i, report); };
     const auto at = std::find(chain.curves.begin(), chain.curves.end(), chosen);
-    if (at == chain.curves.end()) continue;
-    const auto tangent = [&](std::size_t i, bool at_end) -> Eigen::Vector3d {
-      const NurbsCurve& own = report.curves[chain.curves[i]].curve;
-      const NurbsCurve curve = chain.reversed[i] ? own.reversed() : own;
-      return curve.derivatives(at_end ? curve.knots().end() : curve.knots().start(), 1).col(1).normalized();
-    };
-    const auto smooth = [&](std::size_t i) {
-      return (tangent(i, true) - tangent(i + 1, false)).norm() < default_corner_angle;
-    };
     std::size_t first = at - chain.curves.begin(), last = first;
     while (first > 0 && smooth(first - 1)) --first;
     while (last + 1 < chain.curves.size() && smooth(last)) ++last;

@@ -87,7 +87,23 @@ CaseSection pipe_section(const CaseBeam& beam, const Chain& chain, CadFiles& fil
   return {.area = std::numbers::pi * (outer * outer - inner * inner),
           .second_moment = std::numbers::pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
           .radius = outer,
-          .bore = inner};
+          .bore = inner,
+          .torsion_constant = beam.section.torsion_constant};
+}
+
+// What is said of a beam made of a chain must not be said of another one, nor may a connector head a column
+// of its name. `whole`: by the names of the beams made of chains that of the beam of the case.
+void check_names_of_chains(const std::map<std::string, std::string>& whole, const CaseFile& case_file,
+                           Findings& findings) {
+  const auto check = [&](const std::string& name, const std::string& path) {
+    const auto chain = whole.find(name);
+    if (chain == whole.end()) return;
+    findings.error(path + ".name",
+                   "is " + in_quotes(name) + ", the name of a beam that " + in_quotes(chain->second) +
+                       " becomes by \"chains\": \"all\"; names must differ: give another one");
+  };
+  for (const CaseBeam& beam : case_file.beams) check(beam.name, beam.path);
+  for (const CaseConnector& connector : case_file.connectors) check(connector.name, connector.path);
 }
 
 // Whether the name stands for beams; else an error.
@@ -171,6 +187,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .laws = case_file.laws,
                         .analysis = case_file.analysis};
   BeamNames names;
+  std::map<std::string, std::string> whole;
   for (const CaseBeam& beam : case_file.beams) {
     const auto* file = std::get_if<AxisFile>(&beam.axis.source);
     const std::vector<Chain> chains =
@@ -180,6 +197,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
       if (file && file->all_chains) {
         one.name += " " + std::to_string(i + 1);
         names[beam.name].push_back(one.name);
+        whole[one.name] = beam.name;
       }
       names[one.name] = {one.name};
       if (one.section.from_cad) one.section = pipe_section(one, chains[i], files, findings);
@@ -187,6 +205,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
       resolved.chains.push_back(chains[i]);
     }
   }
+  if (!findings.has_errors()) check_names_of_chains(whole, case_file, findings);
   if (!findings.has_errors()) name_beams(resolved, names, findings);
   return resolved;
 }

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "cad_import/files/atomic_file.h"
 #include "pipelines/results/file_error.h"
 
 namespace nurbeam {
@@ -19,21 +20,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The names that a run gives to its files.
-bool is_of_a_run(const std::string& name) {
+/// The name that a file has once it is complete.
+std::string complete_name(const fs::path& name) {
+  const fs::path complete = name.stem();
+  return (temporary_name(complete) == name ? complete : name).string();
+}
+
+/// The names that a run gives to its files, complete or not.
+bool is_of_a_run(const fs::path& name) {
   static const std::regex ours(
-      R"((histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|frames\.pvd|)"
-      R"(modes\.csv|mode_[0-9]+\.pvd|report\.html)(\.part)?|)"
-      R"(run\.log|deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_section_lines|_source)?\.(step|igs|dxf|brep)(\.part[0-9]+)?)");
-  return std::regex_match(name, ours);
+      R"(histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|run\.log|frames\.pvd|)"
+      R"(modes\.csv|mode_[0-9]+\.pvd|report\.html|)"
+      R"(deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_section_lines|_source)?\.(step|igs|dxf|brep))");
+  return std::regex_match(complete_name(name), ours);
 }
 
 constexpr const char* frames_directory = "frames";
 
-/// The names that a run gives to the files in frames/.
-bool is_a_frame(const std::string& name) {
-  static const std::regex ours(R"((mode_[0-9]+_)?(beams|bodies|reactions)_[0-9]+\.vtu(\.part)?)");
-  return std::regex_match(name, ours);
+/// The names that a run gives to the files in frames/, complete or not.
+bool is_a_frame(const fs::path& name) {
+  static const std::regex ours(R"((mode_[0-9]+_)?(beams|bodies|reactions|connectors)_[0-9]+\.vtu)");
+  return std::regex_match(complete_name(name), ours);
 }
 
 void remove_file(const fs::path& file) {
@@ -49,8 +56,8 @@ std::string taken_by_input(const fs::path& directory, const std::vector<fs::path
   for (const fs::path& input : inputs) {
     std::error_code ignored;
     const fs::path file = fs::weakly_canonical(input, ignored), name = file.filename();
-    const bool is_result = (file.parent_path() == place && is_of_a_run(name.string())) ||
-                           (file.parent_path() == place / frames_directory && is_a_frame(name.string()));
+    const bool is_result = (file.parent_path() == place && is_of_a_run(name)) ||
+                           (file.parent_path() == place / frames_directory && is_a_frame(name));
     if (is_result)
       return input.string() +
              ": is an input of this run, and a name of its results, which would take its place; give another "
@@ -84,14 +91,14 @@ void ResultsDirectory::lock() {
 void ResultsDirectory::clear() const {
   std::vector<fs::path> former;
   for (const auto& entry : fs::directory_iterator(path_)) {
-    if (!is_of_a_run(entry.path().filename().string())) continue;
+    if (!is_of_a_run(entry.path().filename())) continue;
     if (entry.is_directory()) fail(entry.path(), "is a directory; a run needs this name for a file");
     former.push_back(entry.path());
   }
   const fs::path frames = path_ / frames_directory;
   if (fs::is_directory(frames)) {
     for (const auto& entry : fs::directory_iterator(frames))
-      if (is_a_frame(entry.path().filename().string())) former.push_back(entry.path());
+      if (is_a_frame(entry.path().filename())) former.push_back(entry.path());
   } else if (fs::exists(frames)) {
     fail(frames, "is a file; a run needs this name for a directory");
   }
@@ -103,7 +110,7 @@ std::vector<fs::path> ResultsDirectory::files() const {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(path_)) {
     const fs::path name = entry.path().filename();
-    if (name == frames_directory || is_of_a_run(name.string())) files.push_back(name);
+    if (name == frames_directory || is_of_a_run(name)) files.push_back(name);
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "pipelines/diagnostics/closest_name.h"
@@ -101,8 +102,27 @@ void check_drawn_alike(const BeamModel& own, const BeamModel& other) {
   }
 }
 
-bool same_times(const SimulationOptions& a, const SimulationOptions& b) {
-  return a.end_time == b.end_time && a.step == b.step && a.output_times == b.output_times;
+/// What is asked of a method, beside the times.
+std::vector<double> settings_of(const IntegratorSettings& integrator) {
+  return std::visit(
+      [&](const auto& method) {
+        std::vector<double> settings{static_cast<double>(integrator.index()), method.tolerance};
+        if constexpr (
+            requires { method.rho_infinity; })
+          settings.push_back(method.rho_infinity);
+        if constexpr (
+            requires { method.newton_tolerance; })
+          settings.push_back(method.newton_tolerance);
+        return settings;
+      },
+      integrator);
+}
+
+/// Whether neighbours run alike, and so can go along.
+bool same_run(const SimulationOptions& a, const SimulationOptions& b) {
+  return a.end_time == b.end_time && a.step == b.step && a.output_times == b.output_times &&
+         a.length_control.min == b.length_control.min && a.length_control.max == b.length_control.max &&
+         settings_of(a.integrator) == settings_of(b.integrator);
 }
 
 bool asks_for_von_mises(const StudyFile& study) {
@@ -260,8 +280,10 @@ VariantGradient::VariantGradient(const StudyFile& study, const StudyCase& study_
       why = first_error(read.diagnostics);
       return std::optional<CaseFile>();
     }
-    if (!same_times(options, simulation_options(*read.value)))
-      throw std::invalid_argument("variables that change the times of a run have no derivative");
+    if (!same_run(options, simulation_options(*read.value)))
+      throw std::invalid_argument(
+          "variables that change the times of a run, its integrator or when its mesh changes have no "
+          "derivative; take differences of runs");
     return std::optional<CaseFile>(std::move(*read.value));
   };
   const auto run_of = [&](std::vector<double> of, std::string& why) -> std::optional<NeighbouringRun> {

@@ -107,10 +107,13 @@ std::vector<BeamPart> Histories::parts_of_beams() const {
 }
 
 void Histories::nudge(std::size_t time, double part) {
+  constexpr double golden = 0.6180339887498949;
+  double own = 0;  // by which columns differ, so that their ratios and differences change too
   for (std::vector<double>& column : values_) {
     double largest = 0;
     for (const double value : column) largest = std::fmax(largest, std::abs(value));
-    column[time] += part * (largest > 0 ? largest : 1);
+    column[time] += part * (1 + own) * (largest > 0 ? largest : 1);
+    own = std::fmod(own + golden, 1);
   }
 }
 

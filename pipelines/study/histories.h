@@ -33,7 +33,7 @@ class Histories {
   void replace(std::size_t time, const Snapshot& local);
   /// Takes those of one time over from another run of the study.
   void replace(std::size_t time, const Histories& other);
-  /// Adds a part of the largest of each to the values of one time.
+  /// Adds to the values of one time, to each another part of its largest from `part` to twice that.
   void nudge(std::size_t time, double part);
 
   /// What of a snapshot they are read from.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace nurbeam {
@@ -135,6 +136,16 @@ OT::Function study_function(const StudyFile& study, const StudyEvaluation& evalu
   OT::Function function(VariantsFunction(inputs, outputs, evaluate, std::move(f)));
   if (gradient) function.setGradient(VariantsGradient(inputs, outputs, gradient));
   return function;
+}
+
+bool hardly_varies(const StudyPoints& rows, std::size_t quantity) {
+  constexpr double round_off = 1e-13;
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const auto& row : rows) {
+    least = std::min(least, row[quantity]);
+    greatest = std::max(greatest, row[quantity]);
+  }
+  return greatest - least <= round_off * std::max(std::abs(least), std::abs(greatest));
 }
 
 std::size_t quantity_index(const StudyFile& study, const std::string& name) {

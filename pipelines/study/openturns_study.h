@@ -23,6 +23,9 @@ OT::Function study_function(const StudyFile& study, const StudyEvaluation& evalu
                                 f,
                             const StudyDerivatives& gradient = {});
 
+/// Whether a quantity differs in these rows by no more than round-off.
+bool hardly_varies(const StudyPoints& rows, std::size_t quantity);
+
 /// The place of a quantity in the rows.
 std::size_t quantity_index(const StudyFile& study, const std::string& name);
 

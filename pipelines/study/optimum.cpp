@@ -53,8 +53,9 @@ OT::OptimizationAlgorithm genetic_search(const StudyFile& study, const StudyOpti
       OT::ComposedDistribution(OT::ComposedDistribution::DistributionCollection(inputs, OT::Uniform(0, 1)))
           .getSample(population);
   OT::Pagmo genetic(problem, optimum.objectives.size() > 1 ? "nsga2" : "gaco", first);
+  // Behind the first population.
   genetic.setGenerationNumber(
-      std::max<std::size_t>(1, static_cast<std::size_t>(optimum.evaluations) / population));
+      std::max<std::size_t>(2, static_cast<std::size_t>(optimum.evaluations) / population) - 1);
   genetic.setSeed(study.seed);
   genetic.setBlockSize(population);
   return genetic;

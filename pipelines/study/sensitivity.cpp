@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <stdexcept>
 
 #include "pipelines/study/openturns_study.h"
@@ -83,8 +82,7 @@ SensitivityResult sobol_indices(const StudyFile& study, const StudySensitivity& 
         inputs.push_back(points[block + row]);
         outputs.push_back({quantities[block + row][k]});
       }
-    if (std::all_of(outputs.begin(), outputs.end(),
-                    [&](const auto& row) { return row == outputs.front(); })) {
+    if (hardly_varies(outputs, 0)) {
       const std::vector<SobolIndices::Index> none(study.free_variables().size());
       result.indices.push_back({.quantity = name, .first_order = none, .total_order = none});
       continue;

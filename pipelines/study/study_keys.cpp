@@ -148,7 +148,8 @@ Shape optimum() {
                  {"method", choice({"cobyla", "nelder_mead", "gradient", "genetic"}),
                   "cobyla when omitted; genetic for several objectives"},
                  {"derivatives", derivatives(), about_derivatives},
-                 {"evaluations", integer({.lower = 1, .upper = 1e6}), "most variants; 100 when omitted"},
+                 {"evaluations", integer({.lower = 1, .upper = 1e6}),
+                  "most variants, of genetic 16 at least; 100 when omitted"},
                  {"tolerance", quantity(Dimension::number, {.lower = 1e-12, .upper = 0.5}),
                   "of the variables, as a part of their ranges; 1e-4 when omitted"}});
 }

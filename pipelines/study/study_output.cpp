@@ -345,7 +345,7 @@ std::string study_plan_text(const StudyFile& study) {
         if constexpr (std::is_same_v<Task, StudySensitivity>)
           out << task.count * (static_cast<int>(free) + 2) << " variants for Sobol indices\n";
         if constexpr (std::is_same_v<Task, StudyReliability>)
-          out << "at most " << task.count << " variants for a probability\n";
+          out << "at most about " << task.count << " variants for a probability\n";
         if constexpr (std::is_same_v<Task, StudyOptimum>)
           out << "at most about " << task.evaluations << " variants for an optimum\n";
         if constexpr (std::is_same_v<Task, StudyCalibration>)

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 
 #include "nurbs/number_text.h"
@@ -66,17 +65,6 @@ Fitted kriging_of(const OT::Sample& x, const OT::Sample& y) {
   return {value_of(OT::ComposedFunction(algorithm.getResult().getMetaModel(), parts))};
 }
 
-// By no more than round-off.
-bool hardly_varies(const StudyPoints& outputs, std::size_t quantity) {
-  constexpr double round_off = 1e-13;
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const auto& row : outputs) {
-    least = std::min(least, row[quantity]);
-    greatest = std::max(greatest, row[quantity]);
-  }
-  return greatest - least <= round_off * std::max(std::abs(least), std::abs(greatest));
-}
-
 // What does not vary: no part of it is any variable's.
 Fitted constant_of(const StudyFile& study, double value, bool with_indices) {
   const std::vector<double> none(with_indices ? study.free_variables().size() : 0, 0.0);
@@ -124,15 +112,18 @@ std::vector<SurrogateResult> make_surrogates(const StudyFile& study, const Study
     SurrogateResult result{.quantity = study.quantities[k].name,
                            .first_order = fitted.first_order,
                            .total_order = fitted.total_order};
-    double mean = 0, squares = 0, errors = 0;
+    double mean = 0, squares = 0, errors = 0, largest = 0;
     for (const auto& row : test_y) mean += row[k] / static_cast<double>(test_y.size());
     for (std::size_t i = 0; i < test_y.size(); ++i) {
       const double error = fitted.value(to_point(test_x[i])) - test_y[i][k];
       errors += error * error;
       squares += (test_y[i][k] - mean) * (test_y[i][k] - mean);
       result.largest_error = std::max(result.largest_error, std::abs(error));
+      largest = std::max(largest, std::abs(test_y[i][k]));
     }
-    result.q2 = squares > 0 ? 1 - errors / squares : 1;
+    // Where these are all equal there is no variance to explain, and either it meets them or it does not.
+    const bool meets = result.largest_error <= 1e-12 * largest;
+    result.q2 = hardly_varies(test_y, k) ? (meets ? 1 : 0) : 1 - errors / squares;
     results.push_back(std::move(result));
   }
   return results;

@@ -348,8 +348,11 @@ class Model:
         case = dict(self.case)
         own, asked = case.get("analysis", {}), _json(analysis)
         if isinstance(own, dict):  # else it is said what is wrong with it
-            if asked.get("type", own.get("type", "dynamic")) != own.get("type", "dynamic"):
+            kind = own.get("type", "dynamic")
+            if (other := asked.get("type", kind)) != kind:
                 own = {key: own[key] for key in ("length_control",) if key in own}
+                if other != "dynamic" and isinstance(output := case.get("output"), dict):
+                    case["output"] = {key: value for key, value in output.items() if key != "every"}
             case["analysis"] = {**own, **asked}
         if every is not None:
             case["output"] = {**case.get("output", {}), "every": _json(every)}

@@ -555,6 +555,19 @@ TEST(StepInstances, AreReadPastStringsAndComments) {
   EXPECT_THROW(StepInstances("nothing"), std::runtime_error);
 }
 
+TEST(StepInstances, BeginBehindAHeaderWhoseStringsAndCommentsNameTheData) {
+  const std::string data = "DATA;\n#1=A('x',#2);\n#2=B('y');\nENDSEC;\n";
+  for (const char* name : {"'MYDATA.stp'", "'it''s my DATA'", "'DATA;#3=C();'", "'' /* 'DATA;#3=C(); */"})
+    for (const char* section : {"", "REFERENCE;#3=<DATA.stp#1>;ENDSEC;"}) {
+      const StepInstances step(std::string("ISO-10303-21;HEADER;FILE_NAME(") + name +
+                               ",'2026',(''),(''),'','','');ENDSEC;" + section + data);
+      EXPECT_EQ(step.encoded_name(1), "x") << name;
+      EXPECT_EQ(step.references(1), std::vector<int>{2}) << name;
+      EXPECT_EQ(step.users(2), std::vector<int>{1}) << name;
+      EXPECT_THROW(step.value(3), std::runtime_error) << name;
+    }
+}
+
 TEST(StepInstances, WhatIsNotChangedStays) {
   const std::string text = "ISO;\nDATA;\n#2=A(#1); /* kept */\n#1 = B('x');\nENDSEC;\nEND;\n";
   StepInstances step(text);

@@ -119,19 +119,20 @@ TEST(PlacedParts, HaveTheirPlacementInTheirOwnUnit) {
   expect_placed(report.curves[0].curve, Eigen::Affine3d(B * A.inverse()), 1);
 }
 
+/// #300, an operator with this first axis, y as the second and z as the third; its origin is (100, 0, 0).
+std::string operation(const std::string& axis1, const std::string& scale) {
+  return "#300 = CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#303,#304,#305," + scale +
+         ",#13);\n#303 = DIRECTION('',(" + axis1 +
+         "));\n#304 = DIRECTION('',(0.,1.,0.));\n#305 = CARTESIAN_POINT('',(100.,0.,0.));\n";
+}
+
+/// An assembly that places its part by an operator.
+std::string assembly_by_operator(const std::string& transformation, Order order = {}) {
+  return with(with(assembly(transformation, millimetres, order), "#11,#301,#56", "#11,#56"), "(#11,#310)",
+              "(#11)");
+}
+
 TEST(PlacedParts, AreScaledAndMirroredByAnOperator) {
-  const auto placed_by = [](const std::string& axis1, const std::string& scale) {
-    return "#300 = CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#303,#304,#305," + scale +
-           ",#13);\n#303 = DIRECTION('',(" + axis1 +
-           "));\n#304 = DIRECTION('',(0.,1.,0.));\n#305 = CARTESIAN_POINT('',(100.,0.,0.));\n" +
-           placement(301 + 20, places[0]);
-  };
-  const auto with_items = [](std::string text) {
-    for (const auto& [item, left] :
-         {std::pair<std::string, std::string>{"#11,#301,#56", "#11,#56"}, {"(#11,#310)", "(#11)"}})
-      text.replace(text.find(item), item.size(), left);
-    return text;
-  };
   struct Case {
     std::string axis1, scale;
     Eigen::Vector3d factors;
@@ -146,10 +147,31 @@ TEST(PlacedParts, AreScaledAndMirroredByAnOperator) {
       place.linear() = factors.asDiagonal();
       place.translation().x() = 0.1;
       if (assembly_is_first) place = place.inverse();
-      expect_placed(only_curve(with_items(assembly(placed_by(axis1, scale), millimetres,
-                                                   {.assembly_is_first = assembly_is_first}))),
-                    place, 1e-3);
+      expect_placed(
+          only_curve(assembly_by_operator(operation(axis1, scale), {.assembly_is_first = assembly_is_first})),
+          place, 1e-3);
     }
+}
+
+TEST(PlacedParts, ByAnOperatorWrittenAsAComplexInstanceStandThereOrAreNamed) {
+  const std::string simple = assembly_by_operator(operation("-1.,0.,0.", "3."));
+  const std::string complex = with(
+      simple, "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#303,#304,#305,3.,#13)",
+      "( CARTESIAN_TRANSFORMATION_OPERATOR(#303,#304,#305,3.) CARTESIAN_TRANSFORMATION_OPERATOR_3D(#13)\n"
+      "FUNCTIONALLY_DEFINED_TRANSFORMATION('','') GEOMETRIC_REPRESENTATION_ITEM() "
+      "REPRESENTATION_ITEM('') )");
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  place.linear() = Eigen::Vector3d(-3, 3, 3).asDiagonal();
+  place.translation().x() = 0.1;
+  expect_placed(only_curve(complex), place, 1e-3);
+  const ImportReport unknown =
+      import_text(with(complex, "GEOMETRIC_REPRESENTATION_ITEM", "ODD_TRANSFORMATION"));
+  ASSERT_EQ(unknown.curves.size(), 1U);
+  ASSERT_FALSE(unknown.diagnostics.empty());
+  EXPECT_NE(unknown.diagnostics.front().where.find("#63"), std::string::npos)
+      << unknown.diagnostics.front().where;
+  EXPECT_NE(unknown.diagnostics.front().message.find("as if it were not placed"), std::string::npos)
+      << unknown.diagnostics.front().message;
 }
 
 TEST(PlacedParts, DrawnByMappedItemsStandBetweenTheirPlacementsToo) {

@@ -123,7 +123,23 @@ TEST(ReadDxf, WholeTurnsAreWholeWhateverTheirDigits) {
     EXPECT_NEAR(length(whole), 13.364893220555258, 1e-12) << range;
     EXPECT_LE((start_of(whole) - end_of(whole)).norm(), 1e-14) << range;
   }
-  EXPECT_NEAR(length(only_dxf_curve("0 ARC 10 0 20 0 40 2 50 90 51 450.0000000001", 6)), 4 * pi, 1e-14);
+  for (const char* range :
+       {"50 90 51 450.0000000001", "50 90 51 90", "50 90 51 90.00000001", "50 90 51 89.99999999"})
+    EXPECT_NEAR(length(only_dxf_curve(std::string("0 ARC 10 0 20 0 40 2 ") + range, 6)), 4 * pi, 1e-14)
+        << range;
+  EXPECT_NEAR(length(only_dxf_curve("0 ARC 10 0 20 0 40 2e7 50 0 51 360.00005")), 4e4 * pi, 1e-8);
+}
+
+TEST(ReadDxf, SmallArcsOfLargeCirclesAreNoWholeTurns) {
+  const double angle = 5e-5 * pi / 180, length_in_metres = 2e4 * angle;
+  for (const char* range : {"50 90.0 51 90.00005", "50 359.99998 51 0.00003"}) {
+    const NurbsCurve arc = only_dxf_curve(std::string("0 ARC 10 0 20 0 30 0 40 20000000.0 ") + range);
+    EXPECT_NEAR(length(arc), length_in_metres, 1e-9) << range;
+    EXPECT_NEAR((end_of(arc) - start_of(arc)).norm(), length_in_metres, 1e-9) << range;
+  }
+  const NurbsCurve ellipse =
+      only_dxf_curve("0 ELLIPSE 10 0 20 0 30 0 11 0 21 2e7 31 0 40 0.5 41 0 42 0.000001");
+  EXPECT_NEAR(length(ellipse), 0.5 * 2e4 * 1e-6, 1e-9);
 }
 
 TEST(ReadDxf, SplinesKeepTheirKnotsAndWeights) {

@@ -353,6 +353,17 @@ TEST(RestatedStep, MappedItemsAreScaledTurnedAndMirroredAsReplicasAre) {
     }
 }
 
+TEST(RestatedStep, OperatorsMayBeWrittenAsComplexInstances) {
+  const std::string simple = replica("#14", "#105", "3.", "#13");
+  const std::string complex = with(
+      simple, "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#14,#105,#103,3.,#13)",
+      "(CARTESIAN_TRANSFORMATION_OPERATOR(#14,#105,#103,3.)CARTESIAN_TRANSFORMATION_OPERATOR_3D(#13)"
+      "FUNCTIONALLY_DEFINED_TRANSFORMATION('','')GEOMETRIC_REPRESENTATION_ITEM()REPRESENTATION_ITEM(''))");
+  const NurbsCurve witness = only_curve(step_text_of("#100", simple + arc));
+  for (const std::string& text : {step_text_of("#100", complex + arc), mapped(complex, units[0].text)})
+    expect_ends(only_curve(text), start_of(witness) / 1e-3, end_of(witness) / 1e-3, 1e-3);
+}
+
 TEST(RestatedStep, AScaledMappedItemLeavesTheOthersOfItsShapeAlone) {
   const ImportReport report = import_text(mapped(replica("$", "$", "2.", "$"), units[0].text, true));
   ASSERT_EQ(report.curves.size(), 2U);

@@ -442,6 +442,26 @@ TEST(Buckling, OfAStrutInAWindIsEulers) {
   EXPECT_EQ(wind.code, 3) << wind.messages;
 }
 
+// What strains itself, and without a load has no stress, has no part in what loads do.
+TEST(Buckling, AboutTheDrawingOfWhatExpandsIsEulers) {
+  for (const char* strain : {"", R"("temperature": 10, )", R"("unstressed_length": 1.0001, )"}) {
+    Left left;
+    run_modes_text(R"({ "nurbeam": 1, "gravity": [0, 0, 0], "beams": [{ "name": "b", )" +
+                       std::string(strain) +
+                       R"("axis": { "polyline": [[0, 0, 0], [0, 0, 1]] }, "section": { "radius": 0.005 },
+        "material": { "density": 7800, "youngs_modulus": 2.1e11, "thermal_expansion": 1e-5 },
+        "elements": { "count": 12 } }],
+      "supports": [{ "beam": "b", "at": "start", "type": "clamped" }],
+      "loads": [{ "beam": "b", "at": "end", "force": [0, 0, -1] }],
+      "analysis": { "type": "buckling", "modes": { "count": 1, "about": "drawn" } },
+      "output": { "report": false } })",
+                   left);
+    ASSERT_EQ(left.code, 0) << left.messages;
+    const double euler = pi * pi / 4 * 2.1e11 * pi / 4 * std::pow(0.005, 4);
+    EXPECT_NEAR(left.run["buckling"][0]["factor"].get<double>(), euler, 1e-3 * euler) << strain;
+  }
+}
+
 // What a drawing says of a connector is its force, which gives its length.
 TEST(Modes, AboutTheDrawingHaveTheForcesOfConnectors) {
   const auto frequencies = [](const std::string& length) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "nurbs/arc_length.h"
 #include "nurbs/closest_point.h"
@@ -49,6 +50,25 @@ TEST(RegularSegments, AreWithoutSlivers) {
   EXPECT_EQ(regular.segments[0].control_point(3), b);
   EXPECT_NEAR(regular.deviation, 1e-8, 1e-20);
   EXPECT_TRUE(regular_segments(std::array{cubic(o, o, o, o)}, 1e-7, 1e-7).segments.empty());
+}
+
+// Each of them is short, all of them are not.
+TEST(RegularSegments, AreAsFarOffAsSliversOneAfterAnotherAreLongTogether) {
+  const auto straight = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return cubic(a, (2 * a + b) / 3, (a + 2 * b) / 3, b);
+  };
+  constexpr int count = 50;
+  constexpr double sliver = 1e-7;
+  const auto step = [](int i) { return Eigen::Vector3d(1, i * sliver, 0); };
+  std::vector<RationalCubic> given{straight({0, 0, 0}, step(0))};
+  for (int i = 0; i < count; ++i) given.push_back(straight(step(i), step(i + 1)));
+  given.push_back(straight(step(count), {2, count * sliver, 0}));
+  given.push_back(straight({2, count * sliver, 0}, {2, (count + 1) * sliver, 0}));
+  const RegularSegments regular = regular_segments(given, 1.1 * sliver, 1e-9);
+  EXPECT_EQ(regular.dropped, count + 1);
+  ASSERT_EQ(regular.segments.size(), 2u);
+  EXPECT_NEAR(regular.deviation, count * sliver, 1e-12);
+  EXPECT_LE(hausdorff_distance(given, regular.segments), 1.001 * regular.deviation);
 }
 
 TEST(RegularSegments, HaveASpeedAtTheirEnds) {

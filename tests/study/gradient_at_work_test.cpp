@@ -184,6 +184,20 @@ TEST(Gradient, SaysWhatIsNotAlikeInNeighbours) {
             std::string::npos)
       << turned;
 
+  for (const char* setting : {"integrator.rho_infinity", "step"}) {
+    const std::string other =
+        told_of(test::spline_case(
+                    6, 4, R"json({"end_time": 0.01, "step": 0.6, "integrator": {"rho_infinity": 0.6}})json"),
+                std::string(R"json("variables": [{"name": "v", "path": "analysis.)json") + setting +
+                    R"json(", "range": [0.5, 0.9], "nominal": 0.6}])json",
+                "at(end, tip.z)");
+    EXPECT_NE(
+        other.find("no derivative by \"v\": variables that change the times of a run, its integrator or "
+                   "when its mesh changes have no derivative"),
+        std::string::npos)
+        << setting << ": " << other;
+  }
+
   // A parabola that turns by more than a right angle is one cubic, or two where it is rational.
   const auto guide = [](const char* weight) {
     return told_of(

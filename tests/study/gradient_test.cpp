@@ -237,6 +237,23 @@ TEST(Gradient, OfWhatIsZeroAsDrawn) {
   expect_gradient(of, 1e-2, 1e-5);
 }
 
+// Columns that change alike leave these as they are.
+TEST(Gradient, OfRatiosAndAnglesOfColumns) {
+  StudyOfCase of(R"json({"nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{"name": "b", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"radius": "10 mm"},
+      "material": {"density": 7800, "youngs_modulus": "210 GPa"}, "elements": {"count": 8}}],
+    "supports": [{"beam": "b", "at": "start", "type": "pinned", "name": "L"},
+                 {"beam": "b", "at": "end", "type": "guided", "direction": [1, 0, 0], "name": "R"}],
+    "loads": [{"beam": "b", "at": {"fraction": 0.25}, "force": [0, 0, -10]},
+              {"beam": "b", "at": {"fraction": 0.75}, "force": [0, 0, -10]}],
+    "analysis": {"type": "static"}})json",
+                 R"json("variables": [{"name": "P", "path": "loads[0].force[2]", "range": [-20, -5]}],
+    "quantities": [{"name": "ratio", "value": "at(end, L.fz) / at(end, R.fz)"},
+                   {"name": "angle", "value": "atan2(at(end, L.fz), at(end, R.fz))"}],
+    "plan": {"grid": 3})json");
+  expect_gradient(of, 1e-3, 1e-5);
+}
+
 // A straight beam of three metres that falls, an end of which moves along it.
 std::string falling_beam(const char* damping, const char* others) {
   return std::string(R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",

@@ -562,11 +562,25 @@ TEST_F(CaseFileTest, NestingIsLimited) {
 
 TEST_F(CaseFileTest, AnAxisFileThatIsNoFileSaysWhatItIs) {
   const auto axis = [](const std::string& file) { return "beams[0].axis={\"file\": \"" + file + "\"}"; };
-  expect_error({axis(".")}, "beams[0].axis.file", {"is a directory", "\"zipline.step\""});
+  expect_error({axis(".")}, "beams[0].axis.file",
+               {"is a directory", "expected a STEP, IGES, DXF or BREP file", "\"zipline.step\""});
   expect_error({axis("/dev/zero")}, "beams[0].axis.file", {"\"/dev/zero\" is a device"});
   const CaseFileReport device = read_case_file("/dev/zero");
   EXPECT_FALSE(device.value);
   EXPECT_NE(messages(device).find("/dev/zero | is a device"), std::string::npos) << messages(device);
+}
+
+TEST_F(CaseFileTest, AMistypedAxisFileIsSoughtAmongAllThatAreRead) {
+  directory_.write("notes.txt", "");
+  for (const char* name : {"drawing.dxf", "Drawing.IGES", "drawing.brep", "drawing.BRP", "drawing.stpZ",
+                           "drawing.zip", "drawing.step.gz"}) {
+    directory_.write(name, "");
+    const std::string mistyped = std::string(name).erase(4, 1);
+    expect_error({R"(beams[0].axis={"file": ")" + mistyped + "\"}"}, "beams[0].axis.file",
+                 {"there is no file", std::string("did you mean \"") + name + "\"?", "\"zipline.step\""});
+  }
+  const CaseFileReport all = read(smallest_case, {R"(beams[0].axis={"file": "absent"})"});
+  EXPECT_EQ(messages(all).find("notes.txt"), std::string::npos) << messages(all);
 }
 
 TEST_F(CaseFileTest, SettingsWithoutEffectInAStaticAnalysisAreWarnedOf) {
@@ -575,6 +589,36 @@ TEST_F(CaseFileTest, SettingsWithoutEffectInAStaticAnalysisAreWarnedOf) {
   ASSERT_EQ(report.diagnostics.size(), 1u);
   EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
   EXPECT_EQ(report.diagnostics[0].where, file() + ": analysis.end_time");
+}
+
+TEST_F(CaseFileTest, KeysOfMotionsAreWarnedOfWhereThereIsNone) {
+  const std::string of_motions =
+      R"("integrator": {"type": "rk4", "rho_infinity": 0.5}, "step": 1e-3, "initial": "as-drawn")";
+  const auto read_as = [&](const char* type) {
+    return read(smallest_case,
+                {std::string(R"(analysis={"type": ")") + type + R"(", "end_time": 1, )" + of_motions +
+                     R"(, "length_control": {"min": 0.2}})",
+                 R"(beams[0].initial={"velocity": {"translation": [1, 0, 0]}})", "output.every=1e-12"});
+  };
+  for (const char* type : {"static", "modes"}) {
+    const CaseFileReport report = read_as(type);
+    ASSERT_TRUE(report.value) << messages(report);
+    std::set<std::string> places;
+    for (const Diagnostic& d : report.diagnostics) {
+      EXPECT_EQ(d.severity, Severity::warning);
+      EXPECT_NE(d.message.find(type == std::string("static") ? "in a static analysis" : "on modes"),
+                std::string::npos)
+          << d.message;
+      places.insert(d.where.substr(file().size() + 2));
+    }
+    EXPECT_EQ(places,
+              (std::set<std::string>{"analysis.end_time", "analysis.step", "analysis.initial",
+                                     "analysis.integrator", "output.every", "beams[0].initial.velocity"}))
+        << messages(report);
+    EXPECT_EQ(report.value->analysis.length_control.min, 0.2);
+    EXPECT_FALSE(report.value->output.every);
+  }
+  EXPECT_EQ(messages(read_as("dynamic")).find("nothing moves"), std::string::npos);
 }
 
 // The schema and the reader agree: what the schema names, the full case (and the keys not offered yet) uses,

@@ -102,6 +102,62 @@ TEST(AxisSelection, SeveralCurvesOfOneNameAreTheirChain) {
   expect_error({.curve_name = "bent"}, "curve", {"several curves are named \"bent\"", "index"}, report);
 }
 
+ImportReport drawing(const std::vector<NurbsCurve>& curves) {
+  ImportReport report{
+      .file = "drawing.dxf", .unit = "m", .resolution = 1e-6, .curves = {}, .diagnostics = {}};
+  for (const NurbsCurve& each : curves) report.curves.push_back({.entity = "curve", .curve = each});
+  return report;
+}
+
+void expect_chain(const AxisFile& axis, const ImportReport& report, const Chain& expected) {
+  const AxisSelection selection = select_axis(axis, report);
+  ASSERT_EQ(selection.chains.size(), 1U) << selection.error;
+  EXPECT_EQ(selection.chains[0].curves, expected.curves);
+  EXPECT_EQ(selection.chains[0].reversed, expected.reversed);
+  EXPECT_EQ(selection.chains[0].closed, expected.closed);
+}
+
+TEST(AxisSelection, TheSmoothChainOfACurveGoesOnPastThePlaceWhereALoopBegins) {
+  const ImportReport square =
+      drawing({line({1, 0, 0}, {2, 0, 0}), line({2, 0, 0}, {2, 2, 0}), line({2, 2, 0}, {0, 2, 0}),
+               line({0, 2, 0}, {0, 0, 0}), line({1, 0, 0}, {0, 0, 0})});
+  for (const int index : {1, 5})
+    expect_chain({.curve_index = index, .chain = true}, square, {{4, 0}, {true, false}, false});
+  expect_chain({.curve_index = 2, .chain = true}, square, {{1}, {false}, false});
+}
+
+// The quarters of the unit circle.
+std::vector<NurbsCurve> quarters() {
+  std::vector<NurbsCurve> found;
+  for (const RationalCubic& quarter : BezierPath::from_nurbs(unit_circle(), 1e-9).segments)
+    found.push_back(BezierPath{{quarter}, {0, 1}, 0}.to_nurbs());
+  return found;
+}
+
+TEST(AxisSelection, ALoopWithoutCornersIsAClosedChainAndOneOfOneCornerBeginsThere) {
+  expect_chain({.curve_index = 3, .chain = true}, drawing(quarters()),
+               {{0, 1, 2, 3}, {false, false, false, false}, true});
+  std::vector<NurbsCurve> drop = quarters();
+  drop.back() = line({0, -1, 0}, {1, -1, 0});
+  drop.push_back(line({1, -1, 0}, {1, 0, 0}));
+  for (int index = 1; index <= 5; ++index)
+    expect_chain({.curve_index = index, .chain = true}, drawing(drop),
+                 {{4, 0, 1, 2, 3}, {false, false, false, false, false}, true});
+}
+
+// With its last control point doubled it has no speed there.
+TEST(AxisSelection, ASplineThatStandsStillAtItsEndGoesOnSmoothly) {
+  Eigen::Matrix3Xd points(3, 4);
+  points << 0, 1, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0;
+  const NurbsCurve slowing =
+      make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 1, 1, 1}), points, Eigen::Vector4d::Ones());
+  const NurbsCurve on = line({2, 0, 0}, {4, 0, 0}), aside = line({2, 0, 0}, {4, 1, 0});
+  expect_chain({.curve_index = 1, .chain = true}, drawing({slowing, on}), {{0, 1}, {false, false}, false});
+  expect_chain({.curve_index = 2, .chain = true}, drawing({slowing.reversed(), on.reversed()}),
+               {{1, 0}, {false, false}, false});
+  expect_chain({.curve_index = 1, .chain = true}, drawing({slowing, aside}), {{0}, {false}, false});
+}
+
 TEST(AxisSelection, PrefersFreeCurvesToCentreLinesToEdgesOfFaces) {
   ImportReport report = wires();
   for (ImportedCurve& c : report.curves) c.free = false;
@@ -217,6 +273,32 @@ TEST(AxisSelection, OneOfSeveralChainsIsNamedByItsNumber) {
   EXPECT_TRUE(says(wrong, Severity::error, "loads[0].beam: there is no beam \"net 5\""));
 }
 
+TEST(AxisSelection, NothingElseIsNamedLikeTheBeamOfAChain) {
+  const test::TemporaryDirectory directory;
+  star(directory);
+  const auto beam = [](const std::string& name, const std::string& axis) {
+    return R"({"name": ")" + name + R"(", "axis": )" + axis +
+           R"(, "section": {"radius": 0.01}, "material": {"density": 7200, "youngs_modulus": 20e6}})";
+  };
+  const std::string every_chain = R"({"file": "star.step", "chains": "all"})";
+  const auto with_beam = [&](const std::string& name, const std::string& axis) {
+    return build_axis(directory, {"beams=[" + beam("net", every_chain) + ", " + beam(name, axis) + "]"});
+  };
+  const std::string straight = R"({"polyline": [[0, 9, 0], [1, 9, 0]]})";
+  const BuildReport named_alike = with_beam("net 4", straight);
+  EXPECT_FALSE(named_alike.value);
+  EXPECT_TRUE(
+      says(named_alike, Severity::error,
+           "beams[1].name: is \"net 4\", the name of a beam that \"net\" becomes by \"chains\": \"all\""));
+  EXPECT_FALSE(with_beam("net 4", every_chain).value);
+  EXPECT_FALSE(says(with_beam("net 5", straight), Severity::error, ".name"));
+  const BuildReport spring =
+      build_axis(directory, {R"(connectors=[{"name": "net 1", "from": {"beam": "net 4", "at": "end"},
+                                  "to": {"point": [3, 6, 0]}, "stiffness": 5}])"});
+  EXPECT_FALSE(spring.value);
+  EXPECT_TRUE(says(spring, Severity::error, "connectors[0].name: is \"net 1\""));
+}
+
 TEST(AxisSelection, ABodySlidesOnOneBeamOnly) {
   const test::TemporaryDirectory directory;
   star(directory);
@@ -296,6 +378,19 @@ TEST(PipeSection, IsThatOfTheDrawnPipe) {
   const BuildReport edge = build_pipe(R"(, "curve": 3)");
   EXPECT_FALSE(edge.value);
   EXPECT_TRUE(says(edge, Severity::error, "beams[0].section.from: is \"cad\", but curve 3 of"));
+}
+
+TEST(PipeSection, KeepsTheTorsionConstantThatIsGiven) {
+  const test::TemporaryDirectory directory;
+  const std::string file = test::source_directory() / "tests/corpus/pygem-pipe.step";
+  const CaseFileReport report =
+      read_case_file(directory.write("case.json", test::smallest_case),
+                     {"beams[0].axis={\"file\": \"" + file + "\"}", "beams[0].torsion=true",
+                      "beams[0].material.poissons_ratio=0.25",
+                      R"(beams[0].section={"from": "cad", "torsion_constant": 1e-3})"});
+  const BuildReport pipe = build_model(report.value.value());
+  ASSERT_TRUE(pipe.value);
+  EXPECT_NEAR(pipe.value->model.beams[0].properties.sections->torsion, 20e6 / 2.5 * 1e-3, 1e-6);
 }
 
 TEST(PipeSection, NeedsACentreLine) {

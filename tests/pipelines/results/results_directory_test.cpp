@@ -39,7 +39,8 @@ TEST(ResultsDirectory, IsMadeWithItsParentsAndTakenByOneAtATime) {
 TEST(ResultsDirectory, IsNotTakenWhereAnInputHasANameOfItsFiles) {
   const TemporaryDirectory temporary;
   const std::filesystem::path &place = temporary.path(), other = place / "other";
-  for (const char* name : {"run.json", "deformed.step", "histories.csv", "frames/beams_000000.vtu"}) {
+  for (const char* name : {"run.json", "deformed.step", "histories.csv", "frames/beams_000000.vtu",
+                           "frames/connectors_000000.vtu"}) {
     EXPECT_TRUE(directory_holds(taken_by_input(place, {place / "cable.step", place / name}),
                                 (place / name).string() + ": is an input of this run"));
     EXPECT_TRUE(directory_holds(taken_by_input(other / "..", {place / name}), "--out"));
@@ -63,6 +64,10 @@ TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
                            "frames.pvd",
                            "frames/beams_000000.vtu",
                            "frames/bodies_000012.vtu",
+                           "frames/reactions_000000.vtu",
+                           "frames/connectors_000000.vtu",
+                           "frames/mode_3_beams_000001.vtu",
+                           "frames/connectors_000001.vtu.part",
                            "deformed.step",
                            "deformed_t0.5.igs",
                            "deformed_t1e-05.step",
@@ -71,10 +76,11 @@ TEST(ResultsDirectory, LosesTheFilesOfAFormerRunAndKeepsAllOthers) {
                            "deformed_t0_source.step",
                            "deformed_t0.5.dxf",
                            "deformed_0012.brep",
-                           "deformed_t0.5.step.part123"})
+                           "deformed.step.part",
+                           "deformed_t0.5_section_lines.step.part"})
     temporary.write(name, "");
-  const std::vector<std::string> others = {"deformed_tip.step", "notes.txt", "my_histories.csv",
-                                           "deformed_t0.5.pdf", "results.nc.bak"};
+  const std::vector<std::string> others = {"deformed_tip.step", "notes.txt",      "my_histories.csv",
+                                           "deformed_t0.5.pdf", "results.nc.bak", "notes.txt.part"};
   for (const std::string& name : others) temporary.write(name, "");
   EXPECT_EQ(refusal(temporary.path()), "");
   for (const std::string& name : others)
