@@ -103,6 +103,7 @@ inline std::string spline_case(int points, int elements, const std::string& anal
     const double x = 3.0 * i / (points - 1);
     control << (i > 0 ? ", [" : "[") << x << ", 0, " << 0.4 * std::sin(1.3 * x) << "]";
   }
+  const char* every = analysis.find("static") == std::string::npos ? R"json("every": 0.02, )json" : "";
   return R"json({"nurbeam": 1, "gravity": [0, 0, -9.81], "beams": [{"name": "beam",
     "axis": {"nurbs": {"degree": 3, "knots": [)json" +
          knots.str() + R"json(], "control_points": [)json" + control.str() + R"json(]}},
@@ -110,7 +111,8 @@ inline std::string spline_case(int points, int elements, const std::string& anal
     "elements": {"count": )json" +
          std::to_string(elements) + R"json(}}],
     "supports": [{"beam": "beam", "at": "start", "type": "clamped", "name": "root"}],
-    "output": {"every": 0.02, "probes": [{"name": "tip", "beam": "beam", "at": "end"}]}, "analysis": )json" +
+    "output": {)json" +
+         every + R"json("probes": [{"name": "tip", "beam": "beam", "at": "end"}]}, "analysis": )json" +
          analysis + "}";
 }
 inline const std::string plane_slide = R"json({"nurbeam": 1, "gravity": [0, 0, -9.81],
