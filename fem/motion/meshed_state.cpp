@@ -76,9 +76,8 @@ std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& n
 
 std::optional<ChangedMesh> changed_drawing(const MeshedState& at, const NextPlan& next) {
   NeighbourSolvers solvers;
-  return changed(
-      at, next, false, nullptr,
-      [&](const BeamSystem& to) { return projected_like(*at.system, at.state, to, {}, solvers); });
+  return changed(at, next, false, nullptr,
+                 [&](const BeamSystem& to) { return projected_like(*at.system, at.state, to, {}, solvers); });
 }
 
 std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest) {
