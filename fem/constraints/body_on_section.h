@@ -79,8 +79,7 @@ class BodyOnSection {
     Eigen::Vector3d curvature(e[0].d[0].d[0], e[1].d[0].d[0], e[2].d[0].d[0]);
     if constexpr (on_point)
       for (int k = 0; k < rows; ++k) {
-        const Eigen::Vector3d unit = Eigen::Vector3d::Unit(k);
-        const ConstraintTerms<3>::Multipliers y = unit;
+        const ConstraintTerms<3>::Multipliers y = ConstraintTerms<3>::Multipliers::Unit(k);
         curvature[k] += v.dot(point_->terms(at, state, &y).hessian * v);
       }
     return curvature;
