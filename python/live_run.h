@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "pipelines/run/run_checks.h"
 #include "python/built_case.h"
 #include "python/interrupts.h"

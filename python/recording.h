@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/results/mode_table.h"
 
 namespace nurbeam::python {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/results/restart_file.h"

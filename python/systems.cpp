@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fem/motion/meshed_state.h"
+#include "fem/motion/remesh/meshed_state.h"
 #include "fem/system/observables.h"
 #include "python/bindings.h"
 #include "python/laws.h"
 #include "python/live_run.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam::python {
 

@@ -14,7 +14,7 @@
 #include "fem/element/quadrature.h"
 #include "fem/element/rancf_basis.h"
 #include "fem/material/elastic.h"
-#include "solver/second_order_system.h"
+#include "solver/system/second_order_system.h"
 
 namespace nurbeam {
 

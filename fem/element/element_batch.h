@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "fem/element/beam_element.h"
-#include "solver/state.h"
+#include "solver/system/state.h"
 
 namespace nurbeam {
 

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "fem/element/fixed_lanes.h"
-#include "solver/every_processor.h"
+#include "solver/algebra/every_processor.h"
 
 /// Arithmetic of the numbers of eight elements, for sources that are compiled for every processor.
 namespace nurbeam {

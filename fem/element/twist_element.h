@@ -11,7 +11,7 @@
 #include "fem/element/twist_drawing.h"
 #include "fem/element/twist_stiffness.h"
 #include "fem/material/section_moments.h"
-#include "solver/second_order_system.h"
+#include "solver/system/second_order_system.h"
 
 namespace nurbeam {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "fem/element/twist_kinematics.h"
-#include "solver/second_order_system.h"
+#include "solver/system/second_order_system.h"
 
 /// The inertia of the spin of sections about their tangents.
 namespace nurbeam::twist {

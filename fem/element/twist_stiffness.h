@@ -1,7 +1,7 @@
 #pragma once
 #include "fem/element/twist_kinematics.h"
 #include "fem/material/section.h"
-#include "solver/second_order_system.h"
+#include "solver/system/second_order_system.h"
 
 namespace nurbeam::twist {
 

@@ -8,7 +8,7 @@
 #include "fem/element/inertia.h"
 #include "fem/element/twist_element.h"
 #include "fem/mesh/mesh.h"
-#include "solver/state.h"
+#include "solver/system/state.h"
 
 namespace nurbeam {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "fem/sensitivity/sensitivities_parts.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
 

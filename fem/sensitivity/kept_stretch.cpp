@@ -5,9 +5,9 @@
 
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "fem/system/observables.h"
-#include "solver/rates_by_unknowns.h"
-#include "solver/side_by_side.h"
-#include "solver/step_adjoint.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/tangents/rates_by_unknowns.h"
+#include "solver/tangents/step_adjoint.h"
 
 namespace nurbeam {
 

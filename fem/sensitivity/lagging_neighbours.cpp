@@ -2,10 +2,10 @@
 #include <utility>
 #include <vector>
 
-#include "fem/motion/new_elements.h"
+#include "fem/motion/remesh/new_elements.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
 #include "fem/sensitivity/sensitivities_parts.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
 

@@ -10,9 +10,9 @@
 #include "fem/sensitivity/transfer_tangent.h"
 #include "fem/system/same_elements.h"
 #include "nurbs/number_text.h"
-#include "solver/side_by_side.h"
-#include "solver/start_tangent.h"
-#include "solver/tangent_rows.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/system/tangent_rows.h"
+#include "solver/tangents/start_tangent.h"
 
 namespace nurbeam {
 

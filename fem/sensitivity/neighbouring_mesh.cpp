@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/motion/recentring.h"
-#include "fem/motion/run_follower.h"
+#include "fem/motion/remesh/recentring.h"
+#include "fem/motion/run/run_follower.h"
 #include "fem/system/assembly.h"
 #include "fem/system/observables.h"
 

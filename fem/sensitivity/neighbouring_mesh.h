@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/motion/meshed_state.h"
+#include "fem/motion/remesh/meshed_state.h"
 
 namespace nurbeam {
 

@@ -12,7 +12,7 @@
 #include "fem/sensitivity/differing_pair.h"
 #include "fem/sensitivity/number_adjoint.h"
 #include "fem/system/with_assembly.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
 

@@ -8,17 +8,17 @@
 #include <utility>
 
 #include "fem/forces/memory.h"
-#include "fem/motion/free_lengths.h"
-#include "fem/motion/kinks.h"
+#include "fem/motion/events/kinks.h"
+#include "fem/motion/rest/free_lengths.h"
 #include "fem/sensitivity/neighbouring_mesh.h"
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "fem/system/observables.h"
 #include "nurbs/number_text.h"
-#include "solver/consistent.h"
-#include "solver/equilibrated_kkt.h"
-#include "solver/near_equilibrium.h"
-#include "solver/side_by_side.h"
-#include "solver/tangent_matrix.h"
+#include "solver/algebra/equilibrated_kkt.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/rest/near_equilibrium.h"
+#include "solver/system/consistent.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
 

@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
-#include "fem/motion/held_extremes.h"
-#include "fem/motion/run_follower.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/record/held_extremes.h"
+#include "fem/motion/run/run_follower.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/sensitivity/residual_differences.h"
 #include "fem/sensitivity/transfer_tangent.h"
-#include "solver/equilibrated_kkt.h"
-#include "solver/kept_steps.h"
-#include "solver/step_tangent.h"
+#include "solver/algebra/equilibrated_kkt.h"
+#include "solver/steps/kept_steps.h"
+#include "solver/tangents/step_tangent.h"
 
 /// Derivatives of a run by parameters of its model.
 namespace nurbeam {

@@ -6,8 +6,8 @@
 
 #include "fem/mesh/mesh_plan.h"
 #include "fem/sensitivity/sensitivities.h"
-#include "solver/rest_adjoint.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/tangents/rest_adjoint.h"
 
 /// What Sensitivities are made of, for their own source files.
 namespace nurbeam {

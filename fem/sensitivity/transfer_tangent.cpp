@@ -4,16 +4,16 @@
 #include <cmath>
 #include <numeric>
 
-#include "fem/motion/new_elements.h"
-#include "fem/motion/relative_motion.h"
+#include "fem/motion/remesh/new_elements.h"
+#include "fem/motion/remesh/relative_motion.h"
 #include "fem/sensitivity/sensitivities_parts.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "fem/system/with_assembly.h"
-#include "solver/scaled_kkt.h"
-#include "solver/side_by_side.h"
-#include "solver/start_tangent.h"
-#include "solver/tangent_rows.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/system/scaled_kkt.h"
+#include "solver/system/tangent_rows.h"
+#include "solver/tangents/start_tangent.h"
 
 namespace nurbeam {
 

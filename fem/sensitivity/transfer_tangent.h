@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "fem/motion/meshed_state.h"
+#include "fem/motion/remesh/meshed_state.h"
 #include "fem/system/momentum.h"
-#include "solver/step_tangent.h"
+#include "solver/tangents/step_tangent.h"
 
 namespace nurbeam {
 

@@ -14,8 +14,8 @@
 #include "fem/forces/force.h"
 #include "fem/model/beam_model.h"
 #include "fem/system/pattern_shift.h"
-#include "solver/second_order_system.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/system/second_order_system.h"
 
 namespace nurbeam {
 

@@ -4,7 +4,7 @@
 
 #include "fem/mesh/mesh.h"
 #include "fem/model/beam_model.h"
-#include "solver/second_order_system.h"
+#include "solver/system/second_order_system.h"
 
 namespace nurbeam {
 

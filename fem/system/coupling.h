@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "solver/sparse_pattern.h"
+#include "solver/algebra/sparse_pattern.h"
 
 namespace nurbeam {
 

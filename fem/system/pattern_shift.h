@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/sparse_pattern.h"
+#include "solver/algebra/sparse_pattern.h"
 
 namespace nurbeam {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cad_import/import_curves.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "pipelines/bench/bench_parts.h"
 #include "pipelines/bench/bench_table.h"
 #include "pipelines/bench/stopwatch.h"

@@ -5,16 +5,16 @@
 #include <limits>
 #include <optional>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/beam_system.h"
 #include "fem/system/initial_state.h"
 #include "pipelines/bench/bench_table.h"
 #include "pipelines/bench/bent_element.h"
 #include "pipelines/bench/stopwatch.h"
 #include "pipelines/verification/verify_examples.h"
-#include "solver/generalized_alpha.h"
-#include "solver/kkt_solver.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/kkt_solver.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/steps/generalized_alpha.h"
 
 namespace nurbeam {
 

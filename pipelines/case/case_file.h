@@ -13,8 +13,8 @@
 
 #include "cad_import/report/diagnostic.h"
 #include "cad_import/report/format.h"
-#include "fem/motion/integrators.h"
-#include "fem/motion/mesh_rules.h"
+#include "fem/motion/remesh/mesh_rules.h"
+#include "fem/motion/run/integrators.h"
 #include "fem/structure/displacement_table.h"
 #include "fem/structure/structure.h"
 #include "nurbs/smooth/smooth_nurbs.h"

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "fem/system/initial_state.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"

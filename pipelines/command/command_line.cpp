@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <ostream>
 
-#include "pipelines/command/commands.h"
 #include "pipelines/command/manual.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -87,8 +86,9 @@ class Parser {
 
 bool asks_for_help(const std::string& word) { return word == "--help" || word == "-h"; }
 
-int run_command_by_name(const std::vector<std::string>& words, Streams streams) {
-  const Command& command = find_by_name(commands(), words[0], "command");
+int run_command_by_name(const std::vector<Command>& table, const std::vector<std::string>& words,
+                        Streams streams) {
+  const Command& command = find_by_name(table, words[0], "command");
   if (std::any_of(words.begin(), words.end(), asks_for_help)) {
     streams.out << usage_of(command) << "\n  " << command.help << '\n';
     for (const CommandOption& option : command.options)
@@ -116,13 +116,13 @@ int run_command_by_name(const std::vector<std::string>& words, Streams streams) 
   }
 }
 
-int run_words(const std::vector<std::string>& words, Streams streams) {
+int run_words(const std::vector<Command>& table, const std::vector<std::string>& words, Streams streams) {
   if (words.empty()) {
-    streams.err << help_text(commands());
+    streams.err << help_text(table);
     return exit_bad_input;
   }
   if (asks_for_help(words[0]) || words[0] == "help") {
-    streams.out << help_text(commands());
+    streams.out << help_text(table);
     return exit_done;
   }
   if (words[0] == "--version") {
@@ -130,7 +130,7 @@ int run_words(const std::vector<std::string>& words, Streams streams) {
     return exit_done;
   }
   try {
-    return run_command_by_name(words, streams);
+    return run_command_by_name(table, words, streams);
   } catch (const UsageError& error) {
     streams.err << "error: " << error.what() << "\nnurbeam --help lists the commands\n";
     return exit_bad_input;
@@ -139,14 +139,19 @@ int run_words(const std::vector<std::string>& words, Streams streams) {
 
 }  // namespace
 
-int run_command_line(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
-  const int code = run_words(arguments, {out, err});
+int run_command_line(const std::vector<Command>& table, const std::vector<std::string>& arguments,
+                     std::ostream& out, std::ostream& err) {
+  const int code = run_words(table, arguments, {out, err});
   out.flush();
   if (!out) {
     err << "error: standard output cannot be written\n";
     return exit_not_written;
   }
   return code;
+}
+
+int run_command_line(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+  return run_command_line(commands(), arguments, out, err);
 }
 
 }  // namespace nurbeam

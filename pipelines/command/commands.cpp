@@ -5,7 +5,6 @@
 #include <ostream>
 
 #include "nurbs/number_text.h"
-#include "pipelines/bench/bench.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/case/case_schema.h"
 #include "pipelines/case/quantity.h"
@@ -14,14 +13,13 @@
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/manual.h"
 #include "pipelines/command/study.h"
+#include "pipelines/command/verify.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
-#include "pipelines/papers/papers.h"
 #include "pipelines/report/report.h"
 #include "pipelines/results/export_results.h"
 #include "pipelines/run/run.h"
 #include "pipelines/run/signals.h"
-#include "pipelines/verification/verify.h"
 
 namespace nurbeam {
 
@@ -141,30 +139,6 @@ int schema_command(const Arguments& arguments, Streams streams) {
   return exit_done;
 }
 
-int verify_command(const Arguments& arguments, Streams streams) {
-  const std::string part = arguments.positional.empty() ? "" : arguments.positional[0];
-  if (part == "papers") {
-    write_papers(arguments.value("--out", "papers"), streams.err);
-    return exit_done;
-  }
-  std::vector<VerifyProblem> problems = verification_problems();
-  const std::vector<std::string> names = names_of(problems);
-  std::erase_if(problems,
-                [&](const VerifyProblem& problem) { return problem.name.find(part) == std::string::npos; });
-  if (problems.empty())
-    throw UsageError("no problem has " + in_quotes(part) + " in its name" + known_names(part, names));
-  return verify(problems, streams.out, streams.err);
-}
-
-int bench_command(const Arguments& arguments, Streams streams) {
-  BenchOptions options;
-  options.largest = whole_number(arguments, "--largest", options.largest, 10, 10'000'000);
-  if (arguments.has("--cad")) options.cad = arguments.value("--cad", "");
-  if (arguments.has("--plot")) options.plot = arguments.value("--plot", "");
-  bench(options, streams.out);
-  return exit_done;
-}
-
 int report_command(const Arguments& arguments, Streams streams) {
   const std::filesystem::path directory = arguments.positional[0];
   write_report(directory);
@@ -255,30 +229,6 @@ const Command report_entry{"report",
                            report_command,
                            exit_not_written};
 
-const Command verify_entry{
-    "verify",
-    "[NAME | papers]",
-    "computes problems with known answers (those with NAME in their name) and prints a table; with "
-    "papers: the examples of the papers beside their tables, as a page with figures",
-    0,
-    1,
-    {{"--out", "DIR", "for the page of the papers"}},
-    verify_command,
-    exit_not_written};
-
-const Command bench_entry{
-    "bench",
-    "",
-    "times nurbeam on this machine: single elements, systems of 10, 100, ... elements, and whole runs with "
-    "their errors",
-    0,
-    0,
-    {{"--largest", "N", "the most elements of a system; otherwise 10000"},
-     {"--cad", "FILE", "times the reading of that file too"},
-     {"--plot", "FILE", "draws the cost by number of elements, as SVG"}},
-    bench_command,
-    exit_not_written};
-
 const Command study_entry{
     "study",
     "[check] STUDY.json",
@@ -312,9 +262,18 @@ int whole_number(const Arguments& arguments, const std::string& option, int othe
 }
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> table = {inspect_entry, check_entry,  run_entry,        export_entry,
-                                             compare_entry, schema_entry, report_entry,     verify_entry,
-                                             bench_entry,   study_entry,  completion_entry, manual_entry};
+  static const std::vector<Command> table = {inspect_entry,
+                                             check_entry,
+                                             run_entry,
+                                             export_entry,
+                                             compare_entry,
+                                             schema_entry,
+                                             report_entry,
+                                             verify_entry(become_verify),
+                                             bench_entry(become_bench),
+                                             study_entry,
+                                             completion_entry,
+                                             manual_entry};
   return table;
 }
 

@@ -54,6 +54,7 @@ struct Command {
   int failure = exit_bad_input;  ///< the exit code when files or the system fail
 };
 
+/// The commands of nurbeam.
 const std::vector<Command>& commands();
 
 /// "nurbeam run CASE.json [--out DIR] ...".

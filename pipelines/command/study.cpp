@@ -1,14 +1,10 @@
 #include "pipelines/command/study.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <ostream>
 #include <thread>
 
-#include "cad_import/files/companion_program.h"
+#include "pipelines/command/companion.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
@@ -20,18 +16,9 @@ std::string jobs_of(const Arguments& arguments) {
   return std::to_string(whole_number(arguments, "--jobs", cores, 1, 1024));
 }
 
-[[noreturn]] void become_study_program(std::vector<std::string> words) {
-  words.insert(words.begin(), study_program().string());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  execv(pointers[0], pointers.data());
-  throw std::runtime_error(words[0] + " cannot be started: " + std::strerror(errno));
-}
-
 }  // namespace
 
-int study_schema_command() { become_study_program({"schema"}); }
+int study_schema_command() { become_program(study_program(), {"schema"}); }
 
 int study_command_line(const Arguments& arguments, Streams streams) {
   const bool check = arguments.positional.size() == 2;
@@ -42,9 +29,9 @@ int study_command_line(const Arguments& arguments, Streams streams) {
   const std::string out = arguments.value("--out", file.stem().string() + "_study");
   if (out.empty()) throw UsageError("--out: the name of the directory is empty");
   streams.out.flush();
-  become_study_program({check ? "check" : "run", file.string(), out, jobs_of(arguments),
-                        arguments.has("--resume") ? "resume" : "new",
-                        arguments.has("--quiet") ? "quiet" : "loud"});
+  become_program(study_program(),
+                 {check ? "check" : "run", file.string(), out, jobs_of(arguments),
+                  arguments.has("--resume") ? "resume" : "new", arguments.has("--quiet") ? "quiet" : "loud"});
 }
 
 }  // namespace nurbeam

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "fem/model/beam_model.h"
-#include "fem/motion/simulation_report.h"
+#include "fem/motion/record/simulation_report.h"
 
 namespace nurbeam {
 

@@ -7,7 +7,7 @@
 
 #include "fem/forces/custom_force.h"
 #include "fem/model/beam_model.h"
-#include "fem/motion/adapted_mesh.h"
+#include "fem/motion/rest/adapted_mesh.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/model_frame.h"

@@ -10,8 +10,8 @@
 #include "fem/system/observables.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
-#include "solver/dependent_constraints.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/dependent_constraints.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/model/build_model.h"
 
 namespace nurbeam {

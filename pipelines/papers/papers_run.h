@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 
 /// The examples of Ding & Ouyang 2022 computed in the ways that are compared with the paper.
 namespace nurbeam::papers {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fem/model/beam_model.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 
 namespace nurbeam {
 

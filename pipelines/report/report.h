@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/results/results.h"
 
 namespace nurbeam {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/results/netcdf_file.h"
 
 /// What the writer and the reader of stored frames share; the layout stands in frame_store.h.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/results/frame_layout.h"
 
 namespace nurbeam {

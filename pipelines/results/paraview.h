@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 
 namespace nurbeam {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "fem/motion/checkpoint.h"
+#include "fem/motion/record/checkpoint.h"
 
 namespace nurbeam {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 
 namespace nurbeam {
 

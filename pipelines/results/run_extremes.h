@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 
 namespace nurbeam {
 

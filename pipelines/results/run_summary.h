@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cad_import/report/diagnostic.h"
-#include "fem/motion/run_event.h"
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/run_event.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/results/mode_table.h"
 #include "pipelines/results/run_extremes.h"
 

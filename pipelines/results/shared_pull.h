@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fem/model/beam_model.h"
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 
 namespace nurbeam {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cad_import/report/named_curve.h"
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/section/profile_polygon.h"
 
 namespace nurbeam {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cad_import/export_curves.h"
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
 

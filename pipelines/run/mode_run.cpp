@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "fem/motion/mode_shape.h"
-#include "fem/motion/modes.h"
+#include "fem/motion/rest/mode_shape.h"
+#include "fem/motion/rest/modes.h"
 #include "nurbs/number_text.h"
 #include "pipelines/run/simulation_plan.h"
 

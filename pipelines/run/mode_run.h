@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "fem/motion/simulation_report.h"
+#include "fem/motion/record/simulation_report.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/results/mode_table.h"
 

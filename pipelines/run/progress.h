@@ -3,7 +3,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 
 namespace nurbeam {
 

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <utility>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
@@ -29,7 +29,7 @@
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/run/simulation_plan.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <iosfwd>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cad_import/report/diagnostic.h"
-#include "fem/motion/simulation_report.h"
+#include "fem/motion/record/simulation_report.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/results/run_summary.h"
 #include "pipelines/results/shared_pull.h"

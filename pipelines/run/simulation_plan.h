@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cad_import/report/diagnostic.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/results/run_summary.h"
 #include "pipelines/results/shared_pull.h"

@@ -11,7 +11,7 @@
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/variant.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
 

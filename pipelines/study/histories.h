@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/motion/held_extremes.h"
-#include "fem/motion/simulation_report.h"
+#include "fem/motion/record/held_extremes.h"
+#include "fem/motion/record/simulation_report.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/results/history_columns.h"
 #include "pipelines/study/study_file.h"

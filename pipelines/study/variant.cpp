@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/diagnostics/simulation_text.h"
@@ -15,7 +15,7 @@
 #include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/gradient.h"
 #include "pipelines/study/histories.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
 

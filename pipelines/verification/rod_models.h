@@ -8,7 +8,7 @@
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "pipelines/verification/models.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 
 /// Rods whose sections twist, as the references of docs/verification.md have them.
 namespace nurbeam::verification {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/observables.h"
 #include "nurbs/number_text.h"
@@ -14,7 +14,7 @@
 #include "pipelines/verification/verify_examples.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "pipelines/verification/verify_run.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 
 namespace nurbeam {
 

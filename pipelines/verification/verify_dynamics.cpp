@@ -16,8 +16,8 @@
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "pipelines/verification/verify_run.h"
-#include "solver/consistent.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/consistent.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
 

@@ -8,14 +8,14 @@
 #include <stdexcept>
 
 #include "fem/element/quadrature.h"
-#include "fem/motion/transfer.h"
+#include "fem/motion/remesh/transfer.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_examples.h"
 #include "pipelines/verification/verify_run.h"
-#include "solver/consistent.h"
+#include "solver/system/consistent.h"
 
 namespace nurbeam {
 

@@ -9,14 +9,14 @@
 #include <optional>
 #include <stdexcept>
 
-#include "fem/motion/modes.h"
+#include "fem/motion/rest/modes.h"
 #include "fem/system/initial_state.h"
 #include "pipelines/verification/hanging_string.h"
 #include "pipelines/verification/models.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_run.h"
-#include "solver/consistent.h"
-#include "solver/generalized_alpha.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
 
 namespace nurbeam {
 

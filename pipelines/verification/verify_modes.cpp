@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "fem/motion/modes.h"
+#include "fem/motion/rest/modes.h"
 #include "fem/system/material_points.h"
 #include "pipelines/verification/models.h"
 #include "pipelines/verification/verify.h"

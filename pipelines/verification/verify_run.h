@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 
 namespace nurbeam::verification {
 

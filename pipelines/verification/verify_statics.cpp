@@ -11,7 +11,7 @@
 #include "pipelines/verification/models.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_oracles.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 
 namespace nurbeam {
 

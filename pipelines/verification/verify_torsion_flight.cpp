@@ -5,17 +5,17 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "fem/motion/recentring.h"
+#include "fem/motion/remesh/recentring.h"
 #include "fem/system/assembly.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
-#include "solver/consistent.h"
-#include "solver/explicit_integrator.h"
-#include "solver/generalized_alpha.h"
-#include "solver/tangent_matrix.h"
+#include "solver/steps/explicit_integrator.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
 

@@ -4,14 +4,14 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "fem/motion/meshed_state.h"
+#include "fem/motion/remesh/meshed_state.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/models.h"
 #include "pipelines/verification/verify.h"
-#include "solver/consistent.h"
-#include "solver/explicit_integrator.h"
+#include "solver/steps/explicit_integrator.h"
+#include "solver/system/consistent.h"
 
 namespace nurbeam {
 

@@ -9,7 +9,7 @@
 #include "fem/system/observables.h"
 #include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
 

@@ -6,7 +6,7 @@
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "nurbs/primitives.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 
 using namespace nurbeam;
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "fem/model/build.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "nurbs/primitives.h"
 
 using namespace nurbeam;

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "fem/model/build.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "nurbs/primitives.h"
 
 using namespace nurbeam;

@@ -5,8 +5,8 @@
 #include "fem/model/build.h"
 #include "fem/system/initial_state.h"
 #include "nurbs/primitives.h"
-#include "solver/consistent.h"
-#include "solver/generalized_alpha.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
 
 using namespace nurbeam;
 

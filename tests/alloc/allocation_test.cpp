@@ -8,8 +8,8 @@
 
 #include "fem/system/assembly.h"
 #include "fem/system/initial_state.h"
-#include "solver/consistent.h"
-#include "solver/generalized_alpha.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
 #include "tests/fem/torsion_models.h"
 
 namespace {

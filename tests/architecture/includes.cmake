@@ -5,6 +5,7 @@
 #   nothing --> python, tests, samples
 #
 # Inside a room a folder may include itself and those that stand before it in the room's list; "." is the room itself.
+# The sub-folders of fem/motion have a list of their own.
 
 cmake_minimum_required(VERSION 3.25)
 set(rooms cad_import fem nurbs pipelines python solver)
@@ -17,10 +18,11 @@ set(python_may_include python pipelines cad_import fem nurbs solver)
 
 set(nurbs_floors . smooth)
 set(cad_import_floors report files . occt iges step dxf program)
-set(solver_floors .)
+set(solver_floors algebra system steps rest tangents)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion sensitivity)
+set(fem_motion_floors record remesh events rest run)
 set(python_floors .)
-set(pipelines_floors diagnostics case section model results report run verification papers bench study command)
+set(pipelines_floors diagnostics case section model results report run study command verification papers bench)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
@@ -28,10 +30,10 @@ set(homes
   "Eigen/(Core|Dense|Geometry|LU|QR|SVD|Cholesky|Eigenvalues|SparseC(ore|holesky))" ".*"
   "(dlfcn|fcntl|malloc|poll|signal|spawn|unistd|sys/[a-z]+)\\.h"                                     "(cad_import|pipelines)/.*\\.cpp"
   "[A-Za-z0-9_]+\\.hxx"                                                           "cad_import/(occt|iges|step|program)/.*"
-  "tbb/.*"                                                                        "solver/side_by_side\\.cpp"
-  "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(sundials_border|kinsol|stabilised_equations)\\.h)"
-  "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/sparse_lu\\.cpp"
-  "Spectra/.*"                                                                    "solver/eigenpairs\\.cpp"
+  "tbb/.*"                                                                        "solver/algebra/side_by_side\\.cpp"
+  "(sundials|kinsol|idas?|cvodes?|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*" "solver/(.*\\.cpp|(algebra/sundials_border|rest/kinsol|steps/stabilised_equations)\\.h)"
+  "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/algebra/sparse_lu\\.cpp"
+  "Spectra/.*"                                                                    "solver/algebra/eigenpairs\\.cpp"
   "pybind11/.*"                                                                   "python/.*"
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/model_digest\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h)"
   "openturns/.*"                                                                  "pipelines/study/openturns_study\\.h"
@@ -61,28 +63,30 @@ function(check_own_header room file path)
   endif()
 endfunction()
 
-# The folder of a file in its room: "." for the room itself.
-function(floor_of path result)
-  if(path MATCHES "^[a-z_]+/([a-z_]+)/")
+# The folder of a file in `parent`, a room or a folder with a list: "." for `parent` itself.
+function(floor_of parent path result)
+  if(path MATCHES "^${parent}/([a-z_]+)/")
     set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
   else()
     set(${result} . PARENT_SCOPE)
   endif()
 endfunction()
 
-function(check_floor room file path)
-  if(NOT path MATCHES "^${room}/")
+function(check_floor parent file path)
+  string(REPLACE / _ name ${parent})
+  if(NOT path MATCHES "^${parent}/" OR NOT file MATCHES "^${parent}/" OR NOT DEFINED ${name}_floors)
     return()
   endif()
-  floor_of(${file} from)
-  floor_of(${path} to)
-  list(FIND ${room}_floors ${from} from_rank)
-  list(FIND ${room}_floors ${to} to_rank)
+  floor_of(${parent} ${file} from)
+  floor_of(${parent} ${path} to)
+  list(FIND ${name}_floors ${from} from_rank)
+  list(FIND ${name}_floors ${to} to_rank)
   if(from_rank EQUAL -1)
-    complain(${file} ${path} "${room}/${from} has no place among the folders of ${room}: ${${room}_floors}")
+    complain(${file} ${path} "${parent}/${from} has no place among the folders of ${parent}: ${${name}_floors}")
   elseif(to_rank GREATER from_rank)
-    complain(${file} ${path} "${to} stands above ${from}: the order is ${${room}_floors}")
+    complain(${file} ${path} "${to} stands above ${from}: the order is ${${name}_floors}")
   endif()
+  check_floor(${parent}/${from} ${file} ${path})
 endfunction()
 
 function(check_library_header file path)

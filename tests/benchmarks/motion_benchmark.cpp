@@ -3,14 +3,14 @@
 
 #include <numbers>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/initial_state.h"
 #include "pipelines/verification/verify_examples.h"
-#include "solver/consistent.h"
-#include "solver/generalized_alpha.h"
-#include "solver/kkt_solver.h"
-#include "solver/static_equilibrium.h"
-#include "solver/tangent_matrix.h"
+#include "solver/algebra/kkt_solver.h"
+#include "solver/rest/static_equilibrium.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
 namespace {

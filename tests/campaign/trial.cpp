@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "fem/mesh/connector_axis.h"
-#include "fem/motion/kinks.h"
-#include "fem/motion/resting_place.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/events/kinks.h"
+#include "fem/motion/rest/resting_place.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "nurbs/gauss_panels.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/model/build_model.h"
-#include "solver/consistent.h"
+#include "solver/system/consistent.h"
 #include "tests/pipelines/case_text.h"
 
 namespace nurbeam::campaign {

@@ -1,7 +1,7 @@
 // The mismatch that decides on the number of elements, against known answers: it is met, and it says how
 // large the error of positions is.
 
-#include "fem/motion/adapted_mesh.h"
+#include "fem/motion/rest/adapted_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "fem/system/material_points.h"
 #include "pipelines/verification/models.h"
 #include "pipelines/verification/verify_oracles.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 
 namespace nurbeam {
 namespace {

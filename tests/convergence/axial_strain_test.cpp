@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "fem/motion/simulation.h"
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/verify_oracles.h"
-#include "solver/static_equilibrium.h"
-#include "solver/tangent_matrix.h"
+#include "solver/rest/static_equilibrium.h"
+#include "solver/system/tangent_matrix.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {

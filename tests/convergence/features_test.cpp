@@ -11,8 +11,8 @@
 
 #include "fem/forces/memory.h"
 #include "fem/mesh/stop_distance.h"
-#include "fem/motion/meshed_state.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/remesh/meshed_state.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/observables.h"
 #include "pipelines/results/restart_file.h"
 #include "pipelines/verification/feature_models.h"

@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 
 #include "fem/model/build.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/beam_system.h"
 #include "nurbs/primitives.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
 namespace {

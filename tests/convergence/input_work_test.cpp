@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "pipelines/verification/models.h"
 
 namespace nurbeam {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/motion/transfer.h"
+#include "fem/motion/remesh/transfer.h"
 #include "fem/system/material_points.h"
-#include "solver/consistent.h"
-#include "solver/explicit_integrator.h"
-#include "solver/generalized_alpha.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
+#include "solver/steps/explicit_integrator.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fem/motion/transfer.h"
+#include "fem/motion/remesh/transfer.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {

@@ -7,7 +7,7 @@
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "fem/system/stress_resultants.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 #include "tests/fem/torsion_models.h"
 
 namespace nurbeam {

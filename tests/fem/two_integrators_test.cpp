@@ -3,9 +3,9 @@
 #include <array>
 
 #include "fem/system/initial_state.h"
-#include "solver/consistent.h"
-#include "solver/generalized_alpha.h"
-#include "solver/ida_integrator.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/steps/ida_integrator.h"
+#include "solver/system/consistent.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {

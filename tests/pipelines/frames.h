@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fem/motion/snapshot.h"
+#include "fem/motion/record/snapshot.h"
 
 namespace nurbeam::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Dense>
 
-#include "solver/second_order_system.h"
+#include "solver/system/second_order_system.h"
 
 namespace nurbeam::testing {
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "fem/system/beam_system.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/tangent_matrix.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {

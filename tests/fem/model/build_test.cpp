@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/observables.h"
-#include "solver/consistent.h"
-#include "solver/generalized_alpha.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {

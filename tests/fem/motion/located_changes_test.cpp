@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "fem/motion/mesh_rules.h"
+#include "fem/motion/remesh/mesh_rules.h"
 #include "fem/system/initial_state.h"
 #include "tests/fem/random_models.h"
 

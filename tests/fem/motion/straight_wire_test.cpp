@@ -4,7 +4,7 @@
 
 #include "fem/system/beam_system.h"
 #include "fem/system/initial_state.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "fem/motion/carried_sections.h"
-#include "fem/motion/recentring.h"
-#include "fem/motion/simulation.h"
-#include "fem/motion/transfer.h"
+#include "fem/motion/remesh/carried_sections.h"
+#include "fem/motion/remesh/recentring.h"
+#include "fem/motion/remesh/transfer.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"

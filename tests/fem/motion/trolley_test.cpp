@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
-#include "solver/static_equilibrium.h"
+#include "solver/rest/static_equilibrium.h"
 #include "tests/fem/torsion_models.h"
 
 namespace nurbeam {

@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "fem/system/material_points.h"
-#include "solver/consistent.h"
-#include "solver/generalized_alpha.h"
-#include "solver/tangent_matrix.h"
-#include "solver/tangent_rows.h"
+#include "solver/steps/generalized_alpha.h"
+#include "solver/system/consistent.h"
+#include "solver/system/tangent_matrix.h"
+#include "solver/system/tangent_rows.h"
 #include "tests/fem/torsion_models.h"
 
 namespace nurbeam {

@@ -9,8 +9,8 @@
 #include "fem/system/beam_system.h"
 #include "fem/system/observables.h"
 #include "fem/system/same_elements.h"
-#include "solver/consistent.h"
-#include "solver/start_tangent.h"
+#include "solver/system/consistent.h"
+#include "solver/tangents/start_tangent.h"
 #include "tests/fem/random_models.h"
 #include "tests/fem/torsion_models.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/initial_state.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/tangent_matrix.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam::testing {

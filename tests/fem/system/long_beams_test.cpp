@@ -5,7 +5,7 @@
 
 #include "fem/system/assembly.h"
 #include "fem/system/beam_system.h"
-#include "solver/side_by_side.h"
+#include "solver/algebra/side_by_side.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {

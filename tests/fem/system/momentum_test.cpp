@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "fem/motion/transfer.h"
-#include "solver/tangent_matrix.h"
+#include "fem/motion/remesh/transfer.h"
+#include "solver/system/tangent_matrix.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {

@@ -4,8 +4,8 @@
 
 #include "fem/system/assembly.h"
 #include "fem/system/same_elements.h"
-#include "solver/consistent.h"
-#include "solver/tangent_matrix.h"
+#include "solver/system/consistent.h"
+#include "solver/system/tangent_matrix.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {

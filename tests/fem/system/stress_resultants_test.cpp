@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/system/observables.h"
-#include "solver/consistent.h"
+#include "solver/system/consistent.h"
 #include "tests/fem/random_models.h"
 #include "tests/support/models.h"
 

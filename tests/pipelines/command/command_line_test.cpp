@@ -55,22 +55,6 @@ TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
   EXPECT_EQ(run_line({}).code, 2);
 }
 
-TEST(CommandLine, BenchTimesItsPartsAndTellsErrorsOfRuns) {
-  const auto plot = std::filesystem::path(testing::TempDir()) / "bench.svg";
-  const CommandOutcome bench = run_line({"bench", "--largest", "10", "--plot", plot.string()});
-  EXPECT_EQ(bench.code, 0) << bench.err;
-  for (const char* part : {"One element by itself", "in space, damped", "sliding body",
-                           "change of the mesh [us]", "Example 1", "error [mm]", "478.0"})
-    EXPECT_TRUE(text_holds(bench.out, part)) << part << "\n" << bench.out;
-  EXPECT_FALSE(text_holds(bench.out, "nan"));
-  EXPECT_GT(std::filesystem::file_size(plot), 1000u);
-  const CommandOutcome wrong = run_line({"bench", "--largest", "few"});
-  EXPECT_EQ(wrong.code, 2);
-  EXPECT_TRUE(text_holds(wrong.err, "--largest: \"few\"")) << wrong.err;
-  EXPECT_EQ(run_line({"bench", "--largest", "10", "--cad", "no_such.step"}).code, 2);
-  EXPECT_EQ(run_line({"bench", "--largest", "10", "--plot", "/nowhere/plot.svg"}).code, 4);
-}
-
 TEST(CommandLine, UnknownCommandsAndOptionsNameTheClosestOne) {
   const CommandOutcome command = run_line({"inspct"}), option = run_line({"run", "case.json", "--quite"});
   EXPECT_EQ(command.code, 2);

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "pipelines/results/restart_file.h"
 #include "tests/pipelines/case_text.h"
 #include "tests/pipelines/frames.h"

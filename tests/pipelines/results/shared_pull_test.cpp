@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/model/build.h"
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {

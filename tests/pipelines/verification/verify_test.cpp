@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pipelines/command/command_line.h"
+#include "pipelines/papers/verify_command.h"
 
 namespace nurbeam {
 namespace {
@@ -24,7 +25,7 @@ Outcome run(const std::vector<VerifyProblem>& problems) {
 
 Outcome run_words(const std::vector<std::string>& words) {
   std::ostringstream out, err;
-  const int code = run_command_line(words, out, err);
+  const int code = run_command_line({verify_entry(verify_command)}, words, out, err);
   return {code, out.str(), err.str()};
 }
 

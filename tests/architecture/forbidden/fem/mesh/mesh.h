@@ -3,6 +3,6 @@
 
 #include <boost/version.hpp>
 
-#include "fem/motion/simulation.h"
+#include "fem/motion/run/simulation.h"
 #include "fem/no_such_header.h"
 #include "tests/support/dual.h"

@@ -1,0 +1,108 @@
+#include "fem/motion/events/crossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/system/observables.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The first place, seen from where the joint was when the mesh was made, that it has passed by now. A landing
+// just before it is not yet that: the joint may turn round there.
+std::optional<double> crossed_place(const BeamSystem& system, int joint, double s) {
+  const BeamModel& model = system.model();
+  const MeshPlan& plan = system.mesh().plan;
+  const Beam& beam = model.beam_of(model.joints[joint]);
+  const bool is_point = plan.modes[joint] == JointMode::point, forward = s > plan.places[joint];
+  const double beyond = s + (forward ? -2 : 2) * landing_tolerance(model, joint);
+  const auto inside = [&](int h) { return beam.is_ring() || (h > 0 && h < beam.home_intervals()); };
+  for (int h = beam.home_interval(plan.places[joint]) + (forward ? 1 : 0);
+       inside(h) && (forward ? beam.home_place(h) < beyond : beam.home_place(h) > beyond);
+       h += forward ? 1 : -1)
+    if (is_point || beam.home_node(h).permanent) return beam.home_place(h);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Crossing> first_crossing(const BeamSystem& system, const State& before, const State& after) {
+  std::optional<Crossing> first;
+  double earliest = 1;
+  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
+    const auto s = place(system, after, j);
+    if (!s) continue;
+    const std::optional<double> crossed = crossed_place(system, j, *s);
+    if (!crossed) continue;
+    const double from = *place(system, before, j), part = (*crossed - from) / (*s - from);
+    if (part >= earliest) continue;
+    earliest = part;
+    first = Crossing{j, *crossed, *s > *crossed};
+  }
+  return first;
+}
+
+std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int joint, bool forward) {
+  const ReferenceCurve& curve = system.model().beam_of(system.model().joints[joint]).curve;
+  const double end = forward ? curve.length() : 0;
+  if (curve.closed() || std::abs(*place(system, state, joint) - end) > 1e-9 * curve.length()) return {};
+  return Crossing{joint, end, forward};
+}
+
+std::optional<Crossing> end_passed(const BeamSystem& system, const State& state) {
+  const BeamModel& model = system.model();
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
+    const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
+    const std::optional<PlaceMotion>& motion = model.joints[j].motion;
+    const bool by_table = motion && !motion->rows().empty();  // which is known to stay on the beam
+    if (curve.closed() || by_table || system.mesh().plan.modes[j] != JointMode::point) continue;
+    const double s = *place(system, state, j), beyond = landing_tolerance(model, j);
+    if (s < -beyond) return Crossing{j, 0, false};
+    if (s > curve.length() + beyond) return Crossing{j, curve.length(), true};
+  }
+  return std::nullopt;
+}
+
+bool is_held(const BeamModel& model, const Crossing& end) {
+  const Beam& beam = model.beam_of(model.joints[end.joint]);
+  const HomeNode& node = end.forward ? beam.home.back() : beam.home.front();
+  return node.hold != Hold::nothing || node.joined;
+}
+
+double landing_tolerance(const BeamModel& model, int joint) {
+  return 1e-10 * model.beam_of(model.joints[joint]).curve.length();
+}
+
+double distance_beyond(const BeamSystem& system, const State& state, const Crossing& crossing) {
+  const double s = *place(system, state, crossing.joint);
+  return crossing.forward ? s - crossing.s : crossing.s - s;
+}
+
+State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,
+             const Crossing& crossing) {
+  return land_before(
+      integrator, taken, [&](const State& state) { return distance_beyond(system, state, crossing); },
+      landing_tolerance(system.model(), crossing.joint));
+}
+
+State between(const State& from, const State& to, double part) {
+  const double h = to.t - from.t, x = part, y = 1 - part;
+  State state = to;
+  state.t = from.t + part * h;
+  state.q = y * y * (1 + 2 * x) * from.q + x * x * (1 + 2 * y) * to.q + h * x * y * (y * from.v - x * to.v);
+  state.v = y * from.v + x * to.v;
+  return state;
+}
+
+State carried_over(const BeamSystem& system, State state, double step, const Crossing& crossing) {
+  const double gap =
+      landing_tolerance(system.model(), crossing.joint) - distance_beyond(system, state, crossing);
+  const double instant =
+      std::clamp(gap / std::abs(place_rate(system, state, crossing.joint)), 0.0, 1e-6 * step);
+  state.q += instant * state.v;
+  state.t += instant;
+  return state;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,285 @@
+#include "fem/motion/events/friction_modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fem/forces/memory.h"
+#include "fem/motion/events/taut_connectors.h"
+#include "fem/motion/remesh/mesh_rules.h"
+#include "fem/system/observables.h"
+#include "solver/system/consistent.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr double rest_speed = 1e-9;  // [m/s]: slower is at rest
+
+double stick_stiffness(const BeamModel& model, int joint) {
+  return model.joints[joint].friction->stiffness(model.body_of(model.joints[joint]).mass);
+}
+
+// A body that slides one way, with the spring as far out as friction goes: the bound follows with the forces.
+FrictionMemory sliding(const BeamModel& model, int joint, double s, int way, double bound) {
+  return {way * bound / stick_stiffness(model, joint), s, way};
+}
+
+// What is held needs no stop.
+void open_held_contacts(const BeamModel& model, const std::vector<bool>& held, MeshPlan& plan) {
+  for (std::size_t i = 0; i < plan.closed.size(); ++i) {
+    const Stop& stop = model.stops[i];
+    if (held[stop.joint] && (stop.other < 0 || held[stop.other])) plan.closed[i] = false;
+  }
+}
+
+// The forces at a moment at which some joints are held.
+struct HeldMoment {
+  BeamSystem system;
+  State state;
+};
+
+std::optional<HeldMoment> hold(const MeshedState& at, const std::vector<int>& joints, double step) {
+  std::vector<bool> held(at.system->model().joints.size(), false);
+  for (const int j : joints) held[j] = true;
+  MeshPlan plan = present_plan(*at.system, at.state);
+  open_held_contacts(at.system->model(), held, plan);
+  HeldMoment moment{BeamSystem(at.system->shared_model(), std::move(plan), held), at.state};
+  moment.state.lambda = Eigen::VectorXd::Zero(moment.system.constraint_count());
+  for (const int j : joints) {
+    moment.state.v[moment.system.mesh().joints[j].place] = 0;
+    set_friction_memory(at.system->model(), moment.state.memory, j, {0, *place(*at.system, at.state, j), 0});
+  }
+  if (make_accelerations_smooth(moment.system, step, moment.state) != ConsistencyStatus::done) return {};
+  return moment;
+}
+
+// As many of the joints as can be held at once: where a rod ties a body to another one that is held, its own
+// place needs no hold.
+std::vector<int> independent(const MeshedState& at, const std::vector<int>& joints, double step) {
+  if (hold(at, joints, step)) return joints;
+  std::vector<int> chosen;
+  for (const int j : joints) {
+    chosen.push_back(j);
+    if (!hold(at, chosen, step)) chosen.pop_back();
+  }
+  return chosen;
+}
+
+// Those with friction that touch a joint's body, by others too: when it comes to rest, so do they.
+std::vector<int> come_to_rest_with(const BeamSystem& system, int joint) {
+  const BeamModel& model = system.model();
+  std::vector<bool> together(model.joints.size(), false);
+  together[joint] = true;
+  for (bool more = true; more;) {
+    more = false;
+    for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
+      const Stop& stop = model.stops[i];
+      if (!system.mesh().plan.is_closed(i) || stop.other < 0) continue;
+      if (together[stop.joint] == together[stop.other]) continue;
+      together[stop.joint] = together[stop.other] = more = true;
+    }
+  }
+  std::vector<int> joints = joints_with_friction(system);
+  std::erase_if(joints, [&](int j) { return !together[j]; });
+  return joints;
+}
+
+// One that has been held by its friction slides, the way that it is pulled.
+void break_loose(MeshedState& at, int joint) {
+  const FrictionForce friction = *sliding_friction(*at.system, at.state, joint);
+  set_friction_memory(at.system->model(), at.state.memory, joint,
+                      sliding(at.system->model(), joint, *place(*at.system, at.state, joint),
+                              friction.trial > 0 ? 1 : -1, friction.bound));
+}
+
+// One that has come to rest and would slide on the same way, which only round-off does where friction is just
+// what it takes to hold it: it would come to rest for ever.
+void stick_at_bound(MeshedState& at, int joint, int way) {
+  const BeamModel& model = at.system->model();
+  const double bound = sliding_friction(*at.system, at.state, joint)->bound;
+  set_friction_memory(model, at.state.memory, joint,
+                      {way * bound / stick_stiffness(model, joint), *place(*at.system, at.state, joint), 0});
+}
+
+}  // namespace
+
+std::vector<bool> blocked_joints(const BeamSystem& system) {
+  const BeamModel& model = system.model();
+  std::vector<bool> blocked(model.joints.size(), false);
+  for (bool more = true; more;) {
+    more = false;
+    for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
+      const Stop& stop = model.stops[i];
+      if (!system.mesh().plan.is_closed(i)) continue;
+      const auto block = [&](int joint) {
+        more = more || !blocked[joint];
+        blocked[joint] = true;
+      };
+      if (stop.other < 0 || blocked[stop.other]) block(stop.joint);
+      if (stop.other >= 0 && blocked[stop.joint]) block(stop.other);
+    }
+  }
+  return blocked;
+}
+
+std::vector<int> joints_with_friction(const BeamSystem& system) {
+  const MeshPlan& plan = system.mesh().plan;
+  std::vector<int> joints;
+  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
+    const bool slides = plan.modes[j] == JointMode::node || plan.modes[j] == JointMode::point;
+    if (system.model().joints[j].friction && slides && !plan.holds(j)) joints.push_back(j);
+  }
+  return joints;
+}
+
+bool start_memory(MeshedState& at, double step) {
+  at.state.memory = no_memory(at.system->model());
+  start_connectors(at);
+  return settle_friction(at, joints_with_friction(*at.system), step, false);
+}
+
+bool settle_friction(MeshedState& at, const std::vector<int>& joints, double step, bool at_rest) {
+  const BeamModel& model = at.system->model();
+  const auto remember = [&](int j, const FrictionMemory& memory) {
+    set_friction_memory(at.system->model(), at.state.memory, j, memory);
+  };
+  std::vector<int> still;
+  const std::vector<bool> blocked = blocked_joints(*at.system);
+  for (const int j : joints) {
+    const double s = *place(*at.system, at.state, j), rate = place_rate(*at.system, at.state, j);
+    const bool stands = at_rest || std::abs(rate) < rest_speed;
+    if (blocked[j])
+      remember(j, {0, s, 0});
+    else if (stands && model.joints[j].friction->can_stick() && !model.joints[j].motion)
+      still.push_back(j);
+    else
+      remember(j, sliding(model, j, s, stands ? 0 : rate < 0 ? -1 : 1, 0));
+  }
+  // One that breaks loose changes the forces on the others.
+  for (bool all_stick = still.empty(); !all_stick;) {
+    const std::vector<int> holding = independent(at, still, step);
+    const std::optional<HeldMoment> moment = hold(at, holding, step);
+    if (!moment) return false;
+    all_stick = true;
+    std::vector<int> stick;
+    for (const int j : still) {
+      if (std::find(holding.begin(), holding.end(), j) == holding.end()) {
+        remember(j, {0, *place(*at.system, at.state, j), 0});
+        stick.push_back(j);
+        continue;
+      }
+      const State& held = moment->state;
+      const FrictionForce friction = *sliding_friction(moment->system, held, j);
+      const double needed = holding_force(moment->system, held, j) / friction.per_along;
+      const double s = *place(*at.system, at.state, j);
+      if (std::abs(needed) <= friction.bound) {
+        remember(j, {-needed / stick_stiffness(model, j), s, 0});
+        stick.push_back(j);
+        continue;
+      }
+      remember(j, sliding(model, j, s, needed < 0 ? 1 : -1, friction.bound));
+      all_stick = false;
+    }
+    still = std::move(stick);
+    all_stick = all_stick || still.empty();
+  }
+  return true;
+}
+
+bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, double step) {
+  const std::vector<bool> was = blocked_joints(*before.system), is = blocked_joints(*at.system);
+  std::vector<int> changed = joints_with_friction(*at.system);
+  std::erase_if(changed, [&](int j) {
+    const double jump = place_rate(*at.system, at.state, j) - place_rate(*before.system, before.state, j);
+    return was[j] == is[j] && std::abs(jump) < rest_speed;
+  });
+  return settle_friction(at, changed, step, false);
+}
+
+double holding_capacity(const BeamSystem& system, const State& state, int joint, bool sticking) {
+  State asked = state;
+  asked.memory = no_memory(system.model());
+  set_friction_memory(system.model(), asked.memory, joint,
+                      {0, *place(system, state, joint), sticking ? 0 : 1});
+  const std::optional<FrictionForce> friction = sliding_friction(system, asked, joint);
+  return friction ? friction->bound * friction->per_along : 0;
+}
+
+void hold_by_friction(MeshedState& at, const std::vector<bool>& except) {
+  const std::vector<int> joints = joints_with_friction(*at.system);
+  if (joints.empty()) return;
+  State held = at.state;
+  held.memory = no_memory(at.system->model());
+  for (const int j : joints) {
+    const double s = *place(*at.system, at.state, j);
+    set_friction_memory(at.system->model(), held.memory, j, {0, s, 0});
+    if (except[j] || at.system->model().joints[j].motion) continue;
+    const double along =
+        holding_force(*at.system, at.state, j) / sliding_friction(*at.system, held, j)->per_along;
+    set_friction_memory(at.system->model(), held.memory, j,
+                        {-along / stick_stiffness(at.system->model(), j), s, 0});
+  }
+  at.state.memory = held.memory;
+}
+
+double beyond(const BeamSystem& system, const State& before, const State& state,
+              const FrictionChange& change) {
+  const int way = sliding_way(system, before, change.joint);
+  if (change.turns) return -way * place_rate(system, state, change.joint);
+  State in_step = state;
+  in_step.memory = before.memory;
+  const FrictionForce friction = *sliding_friction(system, in_step, change.joint);
+  return std::abs(friction.trial) - friction.bound;
+}
+
+double tolerance(const BeamSystem& system, const State& before, const FrictionChange& change) {
+  if (change.turns) return rest_speed;
+  return 1e-9 * sliding_friction(system, before, change.joint)->bound;
+}
+
+std::optional<FrictionChange> first_friction_change(const BeamSystem& system, const State& before,
+                                                    const State& after, bool nothing_turns) {
+  std::optional<FrictionChange> first;
+  const std::vector<bool> blocked = blocked_joints(system);
+  for (const int j : joints_with_friction(system)) {
+    const SlidingJoint& joint = system.model().joints[j];
+    if (blocked[j] || joint.motion || !joint.friction->can_stick()) continue;
+    FrictionChange change{j, sliding_way(system, before, j) != 0, 0};
+    const double from = beyond(system, before, before, change), to = beyond(system, before, after, change),
+                 near = tolerance(system, before, change);
+    const bool in_step = from < -near && to > 0,
+               as_it_begins = change.turns && !nothing_turns && from >= -near && to > near;
+    if (!in_step && !as_it_begins) continue;
+    change.part = in_step ? from / (from - to) : 0;
+    if (!first || change.part < first->part) first = change;
+  }
+  return first;
+}
+
+std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, double step) {
+  const int way = sliding_way(*at.system, at.state, change.joint);
+  if (!change.turns)
+    break_loose(at, change.joint);
+  else if (!settle_friction(at, come_to_rest_with(*at.system, change.joint), step, true))
+    return {};
+  if (change.turns && sliding_way(*at.system, at.state, change.joint) == way)
+    stick_at_bound(at, change.joint, way);
+  return sliding_way(*at.system, at.state, change.joint) == 0 ? EventKind::sticks : EventKind::slides;
+}
+
+std::vector<int> changed_ways(const BeamSystem& system, const State& before, const State& after) {
+  std::vector<int> joints = joints_with_friction(system);
+  const std::vector<bool> blocked = blocked_joints(system);
+  std::erase_if(joints, [&](int j) {
+    return blocked[j] || sliding_way(system, before, j) == sliding_way(system, after, j) ||
+           !system.model().joints[j].friction->can_stick();
+  });
+  return joints;
+}
+
+int sliding_way(const BeamSystem& system, const State& state, int joint) {
+  return friction_memory(system.model(), state.memory, joint).slides;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "fem/motion/events/contacts.h"
+#include "fem/motion/events/friction_modes.h"
+#include "fem/motion/events/taut_connectors.h"
+#include "solver/steps/event.h"
+
+namespace nurbeam {
+
+/// The list of what a step ends at, beside the places that bodies cross (crossing.h) and the ends of beams:
+/// all that has to be said of a new one outside its own file. Each has a `part` of the step, about, at which
+/// it happens, and beyond(), tolerance() and apply().
+using StepEvent = std::variant<FrictionChange, ContactEvent, TautEvent>;
+
+/// What a step does not begin with: see first_contact and first_friction_change.
+struct StepStart {
+  bool nothing_leaves, nothing_turns;
+};
+/// The first event between two states of the system.
+std::optional<StepEvent> first_event(const BeamSystem& system, const State& before, const State& after,
+                                     StepStart start);
+/// The state to which a step of another length leads, just before the event; the state before the step where
+/// that begins at the event.
+State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,
+             const StepEvent& event);
+/// The body of which joint it is about; not of connectors.
+int joint_of(const BeamModel& model, const StepEvent& event);
+
+}  // namespace nurbeam

@@ -1,0 +1,15 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+
+namespace nurbeam {
+
+/// What moves furthest in a motion that nothing resists.
+struct LoosePart {
+  std::string name;
+  bool is_body = false;                                 ///< else a beam
+  double s = 0;                                         ///< of the beam's node [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of unit length
+};
+
+}  // namespace nurbeam

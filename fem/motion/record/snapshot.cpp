@@ -1,0 +1,232 @@
+#include "fem/motion/record/snapshot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fem/motion/record/beam_extremes.h"
+#include "fem/motion/record/sag.h"
+#include "fem/system/observables.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr int at_once = 4096;  ///< elements that are handed over together
+
+// Of its elements.
+void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
+  for (const ElementRecord& e : record.elements)
+    for (int i = 0; i < 4; ++i) {
+      const double s = curve.wrapped(e.s_start + (e.s_end - e.s_start) * i / 3);
+      for (const auto& [extreme, values, size, of_torsion] : element_extremes)
+        if (!of_torsion || !std::isnan(e.twist[i])) keep(record.*extreme, (e.*values)[i], s, size);
+    }
+}
+
+void find_displacement(const ReferenceCurve& curve, BeamRecord& record) {
+  for (std::size_t i = 0; i < record.node_s.size(); ++i) {
+    const double s = record.node_s[i];
+    keep(record.displacement_max, displacement(curve, record.node_positions[i], s), s,
+         ElementExtreme::itself);
+  }
+}
+
+// A guide, which is as it is drawn: its segments, with the strains and forces of none.
+BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& gravity) {
+  BeamRecord record;
+  for (int j = 0; j < curve.segment_count(); ++j) {
+    ElementRecord& element = record.elements.emplace_back();
+    element.control_points = curve.segment(j).points();
+    element.s_start = curve.breaks()[j];
+    element.s_end = curve.breaks()[j + 1];
+    element.strain = element.axial_force = element.bending_moment = Eigen::Vector4d::Zero();
+    element.stress = Eigen::Vector4d::Constant(SectionRecord::no_number);
+    element.velocity.setZero();
+    for (int i = 0; i < 4; ++i) element.curvature[i] = curve.geometry(j, i / 3.0).curvature[0];
+  }
+  for (int j = 0; j < curve.segment_count() + (curve.closed() ? 0 : 1); ++j) {
+    record.node_s.push_back(curve.breaks()[j]);
+    record.node_positions.push_back(curve.position(curve.breaks()[j]));
+    record.node_slopes.push_back(curve.tangent(curve.breaks()[j], true));
+  }
+  record.length = curve.length();
+  record.sag = sag(record.elements, gravity);
+  find_extremes(curve, record);
+  find_displacement(curve, record);
+  return record;
+}
+
+// The elements of spans that follow one another. `twisted`: at the end of the one before, since the start of
+// the beam.
+void record_spans(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int first,
+                  int end, double& twisted, std::vector<ElementRecord>& elements) {
+  elements.reserve(static_cast<std::size_t>(end - first));
+  for (int i = first; i < end; ++i) {
+    ElementRecord& element = elements.emplace_back(record_element(system, state, i, carried[i]));
+    element.twist.array() += twisted;
+    twisted = element.twist[3];
+  }
+}
+
+void hand_over(int beam, const TakeElements& take, BeamRecord& record) {
+  record.handed_over += record.elements.size();
+  take(beam, record.elements);
+  record.elements.clear();
+}
+
+// Hands the elements over; their extremes and the sag stay.
+void record_in_stretches(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int b,
+                         const TakeElements& take, BeamRecord& record) {
+  const int first = system.mesh().first_span[b], end = system.mesh().first_span[b + 1];
+  Chord chord(span_control_points(system, state, first), span_control_points(system, state, end - 1),
+              system.model().gravity);
+  double twisted = 0;
+  for (int i = first; i < end; i += at_once) {
+    record_spans(carried, system, state, i, std::min(i + at_once, end), twisted, record.elements);
+    find_extremes(system.model().beams[b].curve, record);
+    for (const ElementRecord& element : record.elements) chord.look_at(element.control_points);
+    hand_over(b, take, record);
+  }
+  record.sag = sag_near(system, state, b, first + chord.lowest()).depth;
+}
+
+BeamRecord record_with(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int b,
+                       const TakeElements& take = nullptr) {
+  const Mesh& mesh = system.mesh();
+  const ReferenceCurve& curve = system.model().beams[b].curve;
+  if (system.model().beams[b].rigid) {
+    BeamRecord record = record_guide(curve, system.model().gravity);
+    if (take) hand_over(b, take, record);
+    return record;
+  }
+  BeamRecord record;
+  if (take) {
+    record_in_stretches(carried, system, state, b, take, record);
+  } else {
+    double twisted = 0;
+    record_spans(carried, system, state, mesh.first_span[b], mesh.first_span[b + 1], twisted,
+                 record.elements);
+    find_extremes(curve, record);
+    record.sag = sag(record.elements, system.model().gravity);
+  }
+  for (auto* each : {&record.node_positions, &record.node_slopes}) each->reserve(mesh.nodes[b].size());
+  record.node_s.reserve(mesh.nodes[b].size());
+  for (const MeshNode& node : mesh.nodes[b]) {
+    record.node_positions.push_back(vector_at(system, state.q, node.r));
+    record.node_slopes.push_back(vector_at(system, state.q, node.slope_left));
+    record.node_s.push_back(place_of(curve, node, state));
+  }
+  record.length = beam_length(system, state, b);
+  find_displacement(curve, record);
+  return record;
+}
+
+// Without its section.
+ProbeRecord record_place(const BeamSystem& system, const State& state, const ProbePlace& probe) {
+  const MaterialPoint<3> p = probe.span < 0 ? material_point(system, state, probe.beam, probe.s)
+                                            : material_point_in(system, state, probe.span, probe.s);
+  ProbeRecord record;
+  record.position = p.r;
+  record.velocity = p.velocity;
+  if (system.model().beams[probe.beam].rigid) {
+    record.section.curvature = p.rss.norm();
+    record.section.stress = SectionRecord::no_number;
+  } else {
+    record.displacement = p.r - system.model().beams[probe.beam].curve.position(probe.s);
+  }
+  return record;
+}
+
+ProbeRecord record_probe(const BeamSystem& system, const State& state, const ProbePlace& probe) {
+  ProbeRecord record = record_place(system, state, probe);
+  if (system.model().beams[probe.beam].rigid) return record;
+  const int span = probe.span < 0 ? span_of(system, state, probe) : probe.span;
+  record.section = section_at(system, state, span, CarriedBySpans(system, state)[span], probe.s);
+  record.section.twist += twist_before(system, state, span);
+  return record;
+}
+
+ReactionRecord record_reaction(const BeamSystem& system, const State& state, int i) {
+  const Constraint& constraint = system.model().constraints[i];
+  const Attachment at = std::visit([](const auto& c) { return c.place(); }, constraint);
+  const Reaction given = reaction(system, state, state.lambda, i);
+  const Eigen::Vector3d r = at.body >= 0 ? vector_at(system, state.q, system.mesh().bodies[at.body])
+                                         : material_point(system, state, at.beam, at.s).r;
+  return {r, given.force, given.couple};
+}
+
+PointRecord record_body(const BeamSystem& system, const State& state, int body) {
+  const int r = system.mesh().bodies[body];
+  return {vector_at(system, state.q, r), vector_at(system, state.v, r)};
+}
+
+}  // namespace
+
+int span_of(const BeamSystem& system, const State& state, const ProbePlace& probe) {
+  if (system.model().beams[probe.beam].rigid) return -1;
+  return find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
+}
+
+double twist_before(const BeamSystem& system, const State& state, int span) {
+  const Mesh& mesh = system.mesh();
+  double twist = 0;
+  for (int i = mesh.first_span[mesh.spans[span].beam]; i < span; ++i) twist += span_twist(system, state, i);
+  return twist;
+}
+
+BeamRecord record_beam(const BeamSystem& system, const State& state, int beam) {
+  return record_with(CarriedBySpans(system, state), system, state, beam);
+}
+
+std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state, const TakeElements& take) {
+  const CarriedBySpans carried(system, state);
+  std::vector<BeamRecord> records;
+  for (int b = 0; b < static_cast<int>(system.model().beams.size()); ++b)
+    records.push_back(record_with(carried, system, state, b, take));
+  return records;
+}
+
+EnergyRecord record_energy(const SystemEnergy& energy) {
+  return {.kinetic = energy.kinetic,
+          .gravity = energy.gravity,
+          .axial = energy.axial,
+          .bending = energy.bending + energy.torsion,
+          .total = energy.mechanical(),
+          .spring = energy.spring};
+}
+
+Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
+                         const SnapshotContents& contents, const TakeElements& take) {
+  const BeamModel& model = system.model();
+  Snapshot snapshot;
+  snapshot.time = state.t;
+  if (contents.beams) snapshot.beams = record_beams(system, state, take);
+  for (std::size_t i = 0; contents.probes && i < probes.size(); ++i)
+    snapshot.probes.push_back(contents.sections ? record_probe(system, state, probes[i])
+                                                : record_place(system, state, probes[i]));
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
+    snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
+  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
+    BodyRecord& body = snapshot.bodies[model.joints[j].body];
+    if (const auto s = place(system, state, j)) body.s = model.beam_of(model.joints[j]).curve.wrapped(*s);
+    body.joint_force = joint_force(system, state, j);
+    body.holding_force = holding_force(system, state, j);
+    if (const std::optional<FrictionForce> friction = sliding_friction(system, state, j)) {
+      body.friction_force = friction->along;
+      body.stuck = friction->memory.slides == 0 ? 1 : 0;
+    }
+    if (model.joints[j].motion && body.s) body.drive_force = body.holding_force;
+  }
+  for (int i = 0; contents.reactions && i < static_cast<int>(model.constraints.size()); ++i)
+    snapshot.reactions.push_back(record_reaction(system, state, i));
+  for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
+    const auto [length, force] = length_and_force(system, state, i);
+    const auto [from, to] = connector_ends(system, state, i);
+    snapshot.connectors.push_back({length, force, from, to});
+  }
+  if (contents.energy) snapshot.energy = record_energy(energy(system, state));
+  return snapshot;
+}
+
+}  // namespace nurbeam

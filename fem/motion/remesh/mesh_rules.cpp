@@ -1,0 +1,361 @@
+#include "fem/motion/remesh/mesh_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "fem/motion/remesh/carried_sections.h"
+#include "fem/motion/remesh/carried_weights.h"
+#include "fem/system/observables.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The present plan but for constant weights and charts, which still belong to the places of the old one.
+MeshPlan plan_at(const BeamSystem& system, const State& state) {
+  MeshPlan plan = system.mesh().plan;
+  for (int j = 0; j < static_cast<int>(plan.places.size()); ++j)
+    if (const auto s = place(system, state, j)) plan.places[j] = *s;
+  return plan;
+}
+
+// The rules of length control for one joint, seen from its two neighbours. Home nodes and places of a ring go
+// on over the seam (Beam::home_place), as seen from the joint.
+class JointRules {
+ public:
+  JointRules(const BeamSystem& system, const State& state, const LengthControl& control, int joint,
+             NextPlan& next)
+      : system_(system),
+        state_(state),
+        model_(system.model()),
+        mesh_(system.mesh()),
+        control_(control),
+        joint_(joint),
+        index_(model_.joints[joint].beam),
+        beam_(model_.beams[index_]),
+        next_(next),
+        rate_(place_rate(system, state, joint)) {
+    const auto s = place(system, state, joint);
+    if (s) s_ = *s;
+    if (mesh_.plan.modes[joint_] == JointMode::node) look_around(state.q);
+    if (mesh_.plan.modes[joint_] != JointMode::free) watch_neighbours();
+  }
+
+  // Where the joint may be for apply() to find nothing, whichever way it moves, as it has found nothing.
+  const PlaceRange& quiet() const { return quiet_; }
+
+  bool apply() {
+    if (mesh_.plan.modes[joint_] == JointMode::point) return leave_point();
+    if (mesh_.plan.modes[joint_] != JointMode::node) return false;
+    if (near_end() || is_near_as_point(passing_zone)) return become_point();
+    return move_breaks() || exchange_nodes();
+  }
+
+ private:
+  // A node where it is now.
+  struct Node {
+    double s;
+    int home, joint;  // -1: none
+  };
+  static constexpr int on_each_side = 2;
+
+  // The joint's node and two on each side of it, where they are now: on a ring as often as it takes, else as
+  // many as there are.
+  void look_around(const Eigen::VectorXd& q) {
+    const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
+    const int count = static_cast<int>(nodes.size()), own = mesh_.joints[joint_].node;
+    const int first = mesh_.first_span[index_];
+    const double L = beam_.curve.length();
+    const auto now = [&](int i) {
+      return i + 1 < count || beam_.is_ring() ? mesh_.spans[first + i].start(q)
+                                              : mesh_.spans[first + i - 1].end(q);
+    };
+    const int turns = beam_.is_ring() ? static_cast<int>(std::round((s_ - now(own)) / L)) : 0;
+    for (int k = own - on_each_side; k <= own + on_each_side; ++k) {
+      if (!beam_.is_ring() && (k < 0 || k >= count)) continue;
+      const int turn = k < 0 ? -((count - 1 - k) / count) : k / count, i = k - turn * count;
+      if (k == own) left_ = node_count_ - 1;
+      const int home = nodes[i].home >= 0 ? nodes[i].home + (turns + turn) * beam_.home_intervals() : -1;
+      nodes_[node_count_++] = {now(i) + (turns + turn) * L, home, nodes[i].joint};
+    }
+    right_ = left_ + 2;
+    // The home nodes from the left neighbour to the right one, of those that can come and go.
+    lowest_ = std::max(lowest(), beam_.home_interval(nodes_[left_].s));
+    highest_ = std::min(highest(), beam_.home_interval(nodes_[right_].s) + 1);
+  }
+
+  // Between two home nodes, and with other joints further away, nothing but distances from them counts, each
+  // of which is watched before it is asked for.
+  void watch_neighbours() {
+    const int h = beam_.home_interval(s_);
+    watch(at(h));
+    watch(at(h + 1));
+    if (left_ >= 0 && std::any_of(nodes_.begin(), nodes_.begin() + node_count_,
+                                  [&](const Node& node) { return node.joint >= 0 && node.joint != joint_; }))
+      watch_closely();
+  }
+  void watch(double place) {
+    const double round_off = 1e-12 * beam_.curve.length();
+    if (place <= s_) quiet_.low = std::max(quiet_.low, place + round_off);
+    if (place >= s_) quiet_.high = std::min(quiet_.high, place - round_off);
+  }
+  void watch(double place, double distance) {
+    watch(place - distance);
+    watch(place + distance);
+  }
+  // What else counts may change at any time.
+  void watch_closely() { quiet_ = {s_, s_}; }
+  bool is_near_as_point(double reach) {
+    const int before = beam_.home_interval(s_);
+    for (const int h : {before, before + 1})
+      if (home(h).permanent) watch(at(h), reach * (at(before + 1) - at(before)));
+    return near_as_point(model_, model_.joints[joint_], s_, reach);
+  }
+
+  double at(int h) const { return beam_.home_place(h); }
+  const HomeNode& home(int h) const { return beam_.home_node(h); }
+  int last() const { return beam_.home_intervals(); }
+  bool is_end(int h) const { return !beam_.is_ring() && (h == 0 || h == last()); }
+  // The home nodes that can come and go: all but the ends, or those of one turn around the joint.
+  int lowest() const { return beam_.is_ring() ? beam_.home_interval(s_) - last() / 2 + 1 : 1; }
+  int highest() const { return beam_.is_ring() ? lowest() + last() - 1 : last() - 1; }
+  bool present(int h) const {
+    return (is_planned_ ? next_.plan : mesh_.plan).beams[index_].present[beam_.home_index(h)];
+  }
+  // Length of the home interval that holds s.
+  double spacing(double s) const { return beam_.home_spacing(s); }
+  bool change(MeshChange kind) {
+    next_.change = kind;
+    next_.joint = joint_;
+    return true;
+  }
+  // The next plan, which is made when something is first changed.
+  MeshPlan& plan() {
+    if (!std::exchange(is_planned_, true)) next_.plan = plan_at(system_, state_);
+    return next_.plan;
+  }
+  void insert(int h) { plan().beams[index_].present[beam_.home_index(h)] = true; }
+  void remove(int h) { plan().beams[index_].present[beam_.home_index(h)] = false; }
+
+  bool leave_point() {
+    const double from_end = std::min(s_, at(last()) - s_), zone = 2 * end_zone * spacing(s_);
+    if (!beam_.is_ring()) {
+      watch(zone);
+      watch(at(last()) - zone);
+    }
+    if (!beam_.is_ring() && from_end < zone) return false;
+    if (is_near_as_point(passing_zone_left)) return false;
+    plan().modes[joint_] = JointMode::node;
+    return change(MeshChange::becomes_node);
+  }
+
+  bool near_end() {
+    const auto near = [&](int neighbour) {
+      const Node& node = nodes_[neighbour];
+      if (node.joint >= 0 || !is_end(node.home)) return false;
+      const double zone = end_zone * spacing(s_);
+      watch(node.s, zone);
+      return std::abs(node.s - s_) <= zone && is_approaching(node.s);
+    };
+    return near(left_) || near(right_);
+  }
+
+  bool is_approaching(double place) {
+    watch_closely();
+    return (place > s_) == (rate_ > 0);
+  }
+
+  // All hidden nodes around it return, but for those that another joint hides.
+  bool become_point() {
+    plan().modes[joint_] = JointMode::point;
+    for (int h = lowest_; h <= highest_; ++h)
+      if (hidden(h) && !another_joint_near(h, passing_zone_left)) insert(h);
+    return change(MeshChange::becomes_point);
+  }
+
+  bool hidden(int h) const { return !present(h) && at(h) > nodes_[left_].s && at(h) < nodes_[right_].s; }
+
+  // Whether a neighbour that is itself a moving node is within some home intervals of a home node.
+  bool another_joint_near(int h, double reach) const {
+    for (const int neighbour : {left_, right_}) {
+      const Node& node = nodes_[neighbour];
+      if (node.joint < 0) continue;
+      const double gap = at(h) < node.s ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      if (std::abs(at(h) - node.s) <= reach * gap) return true;
+    }
+    return false;
+  }
+
+  // A break before a joint with a discontinuous slope.
+  bool gives_way(int h) const {
+    return home(h).kind == NodeKind::smooth && passing(model_.joints[joint_], home(h)) == Passing::gives_way;
+  }
+
+  bool move_breaks() {
+    for (int h = lowest_; h <= highest_; ++h) {
+      if (!gives_way(h)) continue;
+      const double distance = std::abs(at(h) - s_);
+      const double gap = at(h) < s_ ? at(h + 1) - at(h) : at(h) - at(h - 1);
+      watch(at(h), passing_zone_left * gap);
+      watch(at(h), passing_zone * gap);
+      if (hidden(h) && distance > passing_zone_left * gap && !another_joint_near(h, passing_zone_left)) {
+        insert(h);
+        return change(MeshChange::merge);  // charts change too: velocities are projected
+      }
+      const auto is_here = [&](int neighbour) {
+        return nodes_[neighbour].joint < 0 && nodes_[neighbour].home == h;
+      };
+      if ((is_here(left_) || is_here(right_)) && distance < passing_zone * gap && is_approaching(at(h))) {
+        remove(h);
+        return change(MeshChange::merge);
+      }
+    }
+    return false;
+  }
+
+  // Returns whether a hidden home node comes back in the element towards `far`.
+  bool insert_towards(int neighbour) {
+    const Node& far = nodes_[neighbour];
+    if (far.joint >= 0) return insert_between_joints(far);
+    for (int h = lowest_; h <= highest_; ++h) {
+      if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
+      const double longest = control_.max * std::abs(far.s - at(h));
+      watch(far.s, longest);
+      if (std::abs(far.s - s_) <= longest) continue;
+      insert(h);
+      return true;
+    }
+    return false;
+  }
+
+  // The far end is another moving node: a hidden node returns when it is half a standard length from both.
+  bool insert_between_joints(const Node& far) {
+    for (int h = lowest_; h <= highest_; ++h) {
+      if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
+      const double margin = (control_.max - 1) * spacing(at(h));
+      if (std::abs(at(h) - s_) <= margin || std::abs(at(h) - far.s) <= margin) continue;
+      insert(h);
+      return true;
+    }
+    return false;
+  }
+
+  bool remove_at(int neighbour) {
+    const Node& near = nodes_[neighbour];
+    const int h = near.home;
+    if (near.joint >= 0 || is_end(h) || home(h).permanent) return false;
+    // The next node may be another moving one: then a home node beyond it is hidden by that one.
+    const Node& beyond = nodes_[neighbour + (neighbour == left_ ? -1 : 1)];
+    if (beyond.joint < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
+    const double distance = std::abs(near.s - s_);
+    const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
+                 behind = std::abs(at(near.s < s_ ? h - 1 : h + 1) - at(h));
+    constexpr double last_moment = 0.1;
+    for (const double threshold : {control_.min * here, (control_.max - 1) * behind, last_moment * here})
+      watch(near.s, threshold);
+    if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
+    // Another hidden node comes back first, unless it is too near to a second joint and this one too near
+    // here.
+    for (int k = lowest_; k <= highest_ && distance > last_moment * here; ++k)
+      if (hidden(k) && !home(k).permanent) return false;
+    remove(h);
+    return true;
+  }
+
+  bool exchange_nodes() {
+    const bool inserted = insert_towards(left_) || insert_towards(right_);
+    const bool removed = remove_at(left_) || remove_at(right_);
+    if (removed) return change(MeshChange::merge);
+    return inserted && change(MeshChange::split);
+  }
+
+  const BeamSystem& system_;
+  const State& state_;
+  const BeamModel& model_;
+  const Mesh& mesh_;
+  const LengthControl& control_;
+  int joint_, index_;
+  const Beam& beam_;
+  NextPlan& next_;
+  bool is_planned_ = false;
+  double s_ = 0, rate_;
+  PlaceRange quiet_;
+  std::array<Node, 2 * on_each_side + 1> nodes_;
+  int node_count_ = 0;
+  int left_ = -1, right_ = -1;     // of nodes_
+  int lowest_ = 0, highest_ = -1;  // of home nodes
+};
+
+}  // namespace
+
+MeshPlan present_plan(const BeamSystem& system, const State& state) {
+  MeshPlan plan = plan_at(system, state);
+  carry_weights(system, state, plan);
+  carry_sections(system, state, plan);
+  return plan;
+}
+
+MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& state) {
+  MeshPlan plan = plan_at(system, state);
+  plan.beams = like.beams;
+  plan.modes = like.modes;
+  plan.held = like.held;
+  plan.closed = like.closed;
+  carry_weights(system, state, plan);
+  carry_sections(system, state, plan, &like);
+  return plan;
+}
+
+NextPlan next_plan(const BeamSystem& system, const State& state, const LengthControl& control,
+                   int first_joint) {
+  NextPlan next;
+  for (int j = first_joint; j < static_cast<int>(system.mesh().plan.places.size()); ++j) {
+    JointRules rules(system, state, control, j, next);
+    if (!rules.apply()) {
+      next.quiet.push_back(rules.quiet());
+      continue;
+    }
+    carry_weights(system, state, next.plan);
+    carry_sections(system, state, next.plan);
+    return next;
+  }
+  return next;
+}
+
+bool MeshWatch::is_quiet(const std::shared_ptr<const BeamSystem>& system, const State& state) const {
+  if (system_.owner_before(system) || system.owner_before(system_)) return false;
+  const std::vector<MeshJoint>& joints = system->mesh().joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].place >= 0 && !quiet_[j].holds(state.q[joints[j].place])) return false;
+  return true;
+}
+
+void MeshWatch::look(const std::shared_ptr<const BeamSystem>& system, const NextPlan& next) {
+  system_.reset();
+  if (next.change != MeshChange::none || next.quiet.size() != system->mesh().joints.size()) return;
+  system_ = system;
+  quiet_ = next.quiet;
+}
+
+bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next) {
+  constexpr double shortest = 0.01, longest = 1.5;  // in home element lengths
+  if (next.change == MeshChange::becomes_node) return true;
+  // What a point lacks of a kink is less and less; of a bend there is no more near the end than before.
+  const bool bends = system.model().joints[next.joint].continuous_slope;
+  if (next.change == MeshChange::becomes_point && bends) return false;
+  const Mesh& mesh = system.mesh();
+  const int beam = system.model().joints[next.joint].beam;
+  const int node = mesh.joints[next.joint].node, first = mesh.first_span[beam];
+  const int spans = mesh.first_span[beam + 1] - first;
+  // Of a ring the element before its first node is its last.
+  for (const int span : {first + (node + spans - 1) % spans, first + node % spans}) {
+    const double start = mesh.spans[span].start(state.q), end = mesh.spans[span].end(state.q);
+    const double standard = system.model().beams[beam].home_spacing((start + end) / 2);
+    if (end - start < shortest * standard || end - start > longest * standard) return false;
+  }
+  return true;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "fem/motion/remesh/meshed_state.h"
+
+/// Where the bodies are that slide on beams.
+namespace nurbeam {
+
+/// Mean length of the standard elements of a joint's beam [m].
+double home_spacing(const BeamModel& model, int joint);
+
+/// From one body to another on the same beam [m], on a ring the short way; else infinity.
+double distance_between(const MeshedState& at, int joint, int other);
+/// Whether a stop keeps two bodies on one beam apart; on an open one also stops between those that stand
+/// between them.
+bool kept_apart(const BeamModel& model, int joint, int other);
+
+/// From one body to the nearest other one on its beam [m]; infinity where it is alone.
+double distance_to_others(const MeshedState& at, int joint);
+
+/// Where each body is that a joint holds.
+std::vector<BodyPlace> places_of(const MeshedState& at);
+
+/// What ends a run in which the bodies of two joints on one beam meet.
+Failure meeting(const MeshedState& at, int joint, int other);
+/// Two bodies that meet on one beam end the run; nothing where all are apart.
+[[nodiscard]] std::optional<Failure> meeting_bodies(const MeshedState& at);
+
+}  // namespace nurbeam

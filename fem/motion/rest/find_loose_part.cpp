@@ -1,0 +1,51 @@
+#include "fem/motion/rest/find_loose_part.h"
+
+#include "fem/motion/record/loaded_between.h"
+#include "solver/rest/mechanism.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The unit vector whose largest component is positive.
+Eigen::Vector3d direction_of(const Eigen::Vector3d& move) {
+  Eigen::Index largest = 0;
+  move.cwiseAbs().maxCoeff(&largest);
+  return (move[largest] < 0 ? -1.0 : 1.0) * move.normalized();
+}
+
+}  // namespace
+
+std::optional<LoosePart> find_loose_part(const MeshedState& at, const std::function<bool()>& interrupted) {
+  const Loading here{at.state.load, at.state.t};
+  State state = at.state;
+  state.load = 0;
+  const LoadedBetween system(*at.system, here, here, interrupted);
+  const std::optional<Eigen::VectorXd> motion = find_mechanism(system, state);
+  if (!motion) return std::nullopt;
+
+  const Mesh& mesh = at.system->mesh();
+  const BeamModel& model = at.system->model();
+  LoosePart loose;
+  Eigen::Vector3d furthest = Eigen::Vector3d::Zero();
+  const auto is_further = [&](int r) {
+    constexpr double further = 1 + 1e-6;  // not by round-off
+    Eigen::Vector3d move = Eigen::Vector3d::Zero();
+    move.head(mesh.dimension) = motion->segment(r, mesh.dimension);
+    if (move.norm() <= further * furthest.norm()) return false;
+    furthest = move;
+    return true;
+  };
+  for (std::size_t body = 0; body < model.bodies.size(); ++body)
+    if (is_further(mesh.bodies[body])) loose = LoosePart{model.bodies[body].name, true};
+  for (std::size_t beam = 0; beam < mesh.nodes.size(); ++beam)
+    for (const MeshNode& node : mesh.nodes[beam])
+      if (is_further(node.r)) loose = LoosePart{model.beams[beam].name, false, node.s};
+  constexpr double turns_alone = 1e-6;
+  const double size = at.system->coordinate_scale().maxCoeff();
+  if (!(furthest.norm() > turns_alone * size)) return std::nullopt;
+  loose.direction = direction_of(furthest);
+  return loose;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,15 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "fem/motion/record/loose_part.h"
+#include "fem/motion/remesh/meshed_state.h"
+
+namespace nurbeam {
+
+/// The loose part of a model at rest, where it is a mechanism there: one of many equilibria. Sections that
+/// turn in their places alone are left out, as nothing else depends on them. Throws Interruption where
+/// `interrupted` returns true.
+std::optional<LoosePart> find_loose_part(const MeshedState& at, const std::function<bool()>& interrupted);
+
+}  // namespace nurbeam

@@ -1,0 +1,140 @@
+#include "fem/motion/rest/modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fem/motion/rest/buckling.h"
+#include "fem/motion/rest/free_lengths.h"
+#include "fem/system/initial_state.h"
+#include "solver/algebra/lowest_frequencies.h"
+#include "solver/rest/stability.h"
+#include "solver/system/tangent_matrix.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+using Vector = Eigen::VectorXd;
+
+Matrix coordinate_block(const Matrix& kkt, int n) { return kkt.topLeftCorner(n, n); }
+
+Failure failure_of(Failure::Kind kind, double growth = 0) { return {.kind = kind, .growth = growth}; }
+
+// At rest, or as drawn without loads.
+MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
+                          const std::function<bool()>& interrupted, RestReport& report) {
+  MeshedState at = MeshedState::drawn(std::move(model));
+  if (options.about_equilibrium && asks_for_lengths(at.system->model())) {
+    report = find_free_lengths(at, interrupted);
+    if (report.failure || report.interrupted) return at;
+  }
+  if (options.about_equilibrium) {
+    report = options.bodies_held ? find_held_equilibrium(at, interrupted)
+                                 : find_rest(at, options.length_control, interrupted);
+    if (!report.failure && !report.freed) report.failure = failure_of(Failure::Kind::resting_place);
+  } else if (options.bodies_held) {
+    const std::vector<bool> held(at.system->model().joints.size(), true);
+    at.system = at.system->replanned(at.system->mesh().plan, held);
+    at.state = drawn_state(*at.system);
+  }
+  if (!options.about_equilibrium) at.state.load = 0;
+  return at;
+}
+
+// Nothing where the state is stable, and K symmetric.
+std::optional<Failure> instability(const MeshedState& at, const Matrix& kkt) {
+  const int n = at.system->coordinate_count();
+  const std::optional<Stability> found = stability(kkt, n);
+  if (!found) return failure_of(Failure::Kind::no_energy);
+  if (found->unstable_directions == 0) return std::nullopt;
+  const Matrix M = coordinate_block(tangent_matrix(*at.system, at.state, {.mass = 1}), n);
+  const Vector& x = found->direction;
+  const double square = x.dot(coordinate_block(kkt, n) * x) / x.dot(M * x);
+  return failure_of(Failure::Kind::unstable_state, std::sqrt(std::max(0.0, -square)));
+}
+
+/// (n) The coordinates' rates of a translation of everything.
+Vector translation(const BeamSystem& system, int axis) {
+  Vector e = Vector::Zero(system.coordinate_count());
+  if (axis >= system.dimension()) return e;
+  for (const auto& nodes : system.mesh().nodes)
+    for (const MeshNode& node : nodes) e[node.r + axis] = 1;
+  for (const int r : system.mesh().bodies) e[r + axis] = 1;
+  return e;
+}
+
+std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::function<void()>& between,
+                                       ModesReport& report) {
+  const BeamSystem& system = *report.at.system;
+  const int n = system.coordinate_count();
+  const Matrix mass_kkt = tangent_matrix(system, report.at.state, {.mass = 1});
+  const Matrix K = coordinate_block(kkt, n), M = coordinate_block(mass_kkt, n);
+  const int most = std::max(0, n - system.constraint_count());
+  const auto found = lowest_frequencies(kkt, mass_kkt, n, std::min(count, most), between);
+  if (!found) return failure_of(Failure::Kind::eigenvalues);
+  std::vector<double> round_offs;
+  for (Eigen::Index i = 0; i < found->values.size(); ++i) round_offs.push_back(round_off(*found, i, K));
+  const std::vector<bool> are_rigid = rigid_motions(*found, round_offs);
+  for (Eigen::Index i = 0; i < found->values.size(); ++i) {
+    Mode mode;
+    mode.shape = found->shapes.col(i);
+    const double square = found->values[i];
+    mode.round_off = round_offs[i];
+    const bool rigid = are_rigid[i];
+    if (!rigid && square < 0) return failure_of(Failure::Kind::unstable_state, std::sqrt(-square));
+    mode.omega = rigid ? 0 : std::sqrt(square);
+    for (int axis = 0; axis < 3; ++axis)
+      mode.participation[axis] = mode.shape.dot(M * translation(system, axis));
+    report.modes.push_back(std::move(mode));
+  }
+  const Vector e = translation(system, 0);
+  report.mass = e.dot(M * e);
+  return std::nullopt;
+}
+
+// Whether it is there before the loads: the weight of lumps, and what pulls at guided supports.
+bool is_permanent(const Force& force) {
+  return std::visit(
+      [](const auto& described) {
+        if constexpr (
+            requires { described.permanent; })
+          return bool(described.permanent);
+        else
+          return false;
+      },
+      force);
+}
+
+}  // namespace
+
+ModesReport find_modes(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
+                       const std::function<bool()>& interrupted) {
+  ModesReport report;
+  std::shared_ptr<const BeamModel> at_rest = model;
+  const bool buckling = options.kind == ModesOptions::Kind::buckling;
+  if (buckling) {
+    BeamModel dead = *model;
+    std::erase_if(dead.forces, [](const Force& force) { return !is_permanent(force); });
+    at_rest = std::make_shared<const BeamModel>(std::move(dead));
+  }
+  report.at = state_at_rest(at_rest, options, interrupted, report.rest);
+  if (report.rest.failure || report.rest.interrupted) return report;
+  const auto between = [&] {
+    if (interrupted && interrupted()) throw Interruption{};
+  };
+  try {
+    const Matrix kkt = tangent_matrix(*report.at.system, report.at.state, {.stiffness = 1});
+    report.rest.failure = instability(report.at, kkt);
+    if (!report.rest.failure)
+      report.rest.failure = buckling ? find_buckling(model->forces, options.count, kkt, between, report)
+                                     : find_vibrations(options.count, kkt, between, report);
+  } catch (const Interruption&) {
+    report.rest.interrupted = true;
+  }
+  return report;
+}
+
+}  // namespace nurbeam

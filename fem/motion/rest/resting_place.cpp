@@ -1,0 +1,368 @@
+#include "fem/motion/rest/resting_place.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fem/motion/events/crossing.h"
+#include "fem/motion/events/friction_modes.h"
+#include "fem/motion/record/loaded_between.h"
+#include "fem/motion/remesh/carried_sections.h"
+#include "fem/motion/remesh/recentring.h"
+#include "fem/motion/remesh/sliding_bodies.h"
+#include "fem/motion/rest/descent.h"
+#include "fem/motion/rest/snap.h"
+#include "fem/system/material_points.h"
+#include "fem/system/observables.h"
+#include "solver/rest/static_equilibrium.h"
+
+namespace nurbeam {
+
+namespace {
+
+// How far a joint can move in a direction while its elements keep half of their length [m]: beyond, Newton's
+// method starts far off.
+double room_to_move(const MeshedState& at, int joint, int direction) {
+  const Mesh& mesh = at.system->mesh();
+  const int node = mesh.joints[joint].node;
+  if (node < 0) return std::numeric_limits<double>::infinity();
+  const int beam = at.system->model().joints[joint].beam, first = mesh.first_span[beam];
+  const int count = mesh.first_span[beam + 1] - first;
+  const MeshSpan& span = mesh.spans[first + (direction > 0 ? node : (node + count - 1) % count)];
+  return (span.end(at.state.q) - span.start(at.state.q)) / 2;
+}
+
+// The plan of the mesh with joints held at other places.
+MeshPlan held_at(const MeshedState& at, const std::vector<double>& places) {
+  MeshPlan plan = at.system->mesh().plan;
+  plan.places = places;
+  carry_sections(*at.system, at.state, plan);
+  return plan;
+}
+
+// Where the joints are; one that holds nothing where it was.
+std::vector<double> present_places(const MeshedState& at) {
+  std::vector<double> places = at.system->mesh().plan.places;
+  for (std::size_t j = 0; j < places.size(); ++j)
+    if (const auto s = place(*at.system, at.state, static_cast<int>(j))) places[j] = *s;
+  return places;
+}
+
+// Brings `at` to rest.
+class RestSearch {
+ public:
+  // `equilibrium`: the time at which `at` is in equilibrium, where it is.
+  RestSearch(MeshedState& at, const LengthControl& control, const std::function<bool()>& interrupted,
+             std::optional<double> equilibrium = {})
+      : at_(at), control_(control), interrupted_(interrupted), equilibrium_(equilibrium) {}
+
+  RestSearch& watching_snaps() {
+    watches_ = true;
+    return *this;
+  }
+
+  RestReport held_equilibrium() {
+    return told([&] { hold_in_equilibrium(at_.system->mesh().plan); });
+  }
+
+  // The same on a mesh in which nothing is to change where the motion begins with these speeds.
+  RestReport held_start() {
+    return told([&] {
+      MeshPlan plan = at_.system->mesh().plan;
+      constexpr int most_rounds = 10;
+      for (int round = 0; round < most_rounds && hold_in_equilibrium(std::move(plan)); ++round) {
+        const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
+        for (int j = 0; j < joints(); ++j) {
+          const SlidingJoint& joint = model().joints[j];
+          const int dof = at_.system->mesh().joints[j].place;  // length control looks at its speed
+          if (dof >= 0) at_.state.v[dof] = joint.motion ? joint.motion->at(at_.state.t).speed : joint.speed;
+        }
+        const bool goes_on = settle_mesh();
+        at_.state.v.setZero();
+        if (!goes_on || at_.system == before) return;
+        plan = held_at(at_, present_places(at_));
+      }
+    });
+  }
+
+  // `slides`: the joints whose bodies look for their place.
+  RestReport rest(const std::vector<bool>& slides) {
+    return told([&] { look_for_rest(slides); });
+  }
+
+ private:
+  const BeamModel& model() const { return at_.system->model(); }
+  int joints() const { return static_cast<int>(model().joints.size()); }
+  double spacing(int joint) const { return home_spacing(model(), joint); }
+
+  RestReport told(const std::function<void()>& search) {
+    try {
+      search();
+    } catch (const Interruption&) {
+      report_.interrupted = true;
+    }
+    return std::move(report_);
+  }
+
+  void look_for_rest(const std::vector<bool>& slides) {
+    at_.state.memory.resize(0);  // bodies are held as they are searched for
+    if (!goes_on(meeting_bodies(at_)) ||
+        !hold_in_equilibrium(equilibrium_ ? held_at(at_, present_places(at_)) : at_.system->mesh().plan))
+      return;
+    if (!move_driven_bodies()) return;
+    std::vector<Descent> bodies;
+    for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? first_move(model(), j) : 0});
+    for (std::vector<int>& group : coupled_joints(model(), slides))
+      coupled_.emplace_back(model(), std::move(group));
+    constexpr int most_moves = 2000;
+    for (int moves = 0; !report_.failure && let_down(bodies); ++moves)
+      if (moves > most_moves) report_.failure = Failure{.kind = Failure::Kind::resting_place};
+    if (report_.failure || !goes_on(leaving_body(bodies))) return;
+    std::vector<bool> stays;
+    for (int j = 0; j < joints(); ++j)
+      stays.push_back(bodies[j].at_end || !(slides[j] || model().joints[j].motion));
+    hold_by_friction(at_, stays);
+    free_bodies(stays);
+  }
+
+  bool goes_on(std::optional<Failure> failure) {
+    report_.failure = std::move(failure);
+    return !report_.failure;
+  }
+
+  // A body that has arrived at a free end which it would leave is not at rest there.
+  std::optional<Failure> leaving_body(const std::vector<Descent>& bodies) const {
+    for (int j = 0; j < joints(); ++j) {
+      if (!bodies[j].leaves || !model().joints[j].leave_at_end) continue;
+      const double s = *place(*at_.system, at_.state, j),
+                   length = model().beam_of(model().joints[j]).curve.length();
+      if (!is_held(model(), {j, s, s > length / 2}))
+        return Failure{
+            .kind = Failure::Kind::leaves_beam, .time = at_.state.t, .places = places_of(at_), .joint = j};
+    }
+    return {};
+  }
+
+  // Takes bodies whose motion is prescribed to where they are at the time.
+  bool move_driven_bodies() {
+    std::vector<double> ds(model().joints.size(), 0);
+    for (int j = 0; j < joints(); ++j)
+      if (const auto& motion = model().joints[j].motion)
+        if (const auto s = place(*at_.system, at_.state, j)) ds[j] = motion->at(at_.state.t).s - *s;
+    return move_places(std::move(ds));
+  }
+
+  // One move of every body and the equilibrium after it; false where all have arrived, or there is none.
+  bool let_down(std::vector<Descent>& bodies) {
+    std::vector<double> ds(bodies.size(), 0);
+    for (int j = 0; j < joints(); ++j)
+      if (!is_coupled(j)) ds[j] = next_move(at_, j, bodies[j]);
+    for (CoupledDescent& group : coupled_) group.next_moves(at_, bodies, ds);
+    const bool arrived =
+        std::all_of(bodies.begin(), bodies.end(), [](const Descent& body) { return body.arrived; });
+    return !arrived && move_places(std::move(ds));
+  }
+
+  // Equilibrium from the state as it is, which is kept on failure. `held`: the joints that are.
+  StaticReport find_equilibrium(MeshedState& at, const std::vector<bool>& held) {
+    // What hangs on a rod is as stiff as its multiplier makes it.
+    if (at.state.lambda.size() != at.system->constraint_count())
+      at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
+    at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
+    const Loading to{1, at.state.t};
+    const bool later = equilibrium_ && *equilibrium_ != to.t;
+    const Loading from = later ? Loading{1, *equilibrium_} : Loading{0, to.t};
+    const State before = at.state;
+    StaticReport found = load(at, from, to);
+    if (watches_ && found.status == StaticStatus::converged && (later || !equilibrium_) && !report_.snap)
+      report_.snap = find_snap(*at.system, {before, from}, {at.state, to}, interrupted_);
+    // Sections that turn far stop it half way, in charts that go no further.
+    const MeshedState start = at;
+    constexpr int most_recentrings = 20;
+    for (int turns = 0; found.status != StaticStatus::converged && recentring_due(*at.system, at.state) &&
+                        turns < most_recentrings;
+         ++turns) {
+      at = recentred(*at.system, at.state, held);
+      found = load(at, {at.state.load, at.state.t}, to);
+    }
+    if (found.status == StaticStatus::converged)
+      equilibrium_ = to.t;
+    else if (at.system != start.system)
+      at = start;
+    return found;
+  }
+
+  // From an equilibrium under one loading to that under another, or as far as they are found.
+  StaticReport load(MeshedState& at, Loading from, Loading to) {
+    const LoadedBetween system(*at.system, from, to, interrupted_);
+    at.state.load = 1;
+    StaticEquilibrium settings{
+        .ends_at = [&](const State& state) { return recentring_due(*at.system, state); }};
+    if (nearby_only_) {
+      settings.max_load_steps = 1;
+      settings.max_iterations = 20;
+    }
+    StaticReport found = find_static_equilibrium(settings, system, at.state);
+    const Loading reached = system.at(found.load_factor);
+    at.state.load = found.load_factor = reached.load;
+    at.state.t = reached.t;
+    report_.newton_iterations += found.newton_iterations;
+    report_.load_steps += found.load_steps;
+    report_.diverges = report_.diverges || (found.diverges && found.status == StaticStatus::converged);
+    return found;
+  }
+
+  // With all sliding bodies held where the plan has them.
+  bool hold_in_equilibrium(MeshPlan plan) {
+    const StaticReport found = equilibrium_of(std::move(plan));
+    if (found.status == StaticStatus::converged) return true;
+    return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
+  }
+  StaticReport equilibrium_of(MeshPlan plan) {
+    const std::vector<bool> held(model().joints.size(), true);
+    at_.system = at_.system->replanned(std::move(plan), held);
+    return find_equilibrium(at_, held);
+  }
+
+  // Applies the changes of the mesh that are due.
+  bool settle_mesh() {
+    for (std::size_t count = 1;; ++count) {
+      const auto start = std::chrono::steady_clock::now();
+      const NextPlan next = next_plan(*at_.system, at_.state, control_);
+      if (next.change == MeshChange::none) return true;
+      if (!goes_on(change_mesh(at_, next, true))) return false;
+      report_.length_control_seconds +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (!goes_on(excess_of_changes(at_, count))) return false;
+    }
+  }
+
+  bool is_coupled(int joint) const {
+    return std::any_of(
+        coupled_.begin(), coupled_.end(),
+        [&](const CoupledDescent& group) {
+          return std::count(group.joints().begin(), group.joints().end(), joint) > 0;
+        });
+  }
+
+  // How much of each move is made at once, with which no joint passes a node: those that are coupled go the
+  // same part of their ways.
+  std::vector<double> parts_at_once(const std::vector<double>& ds) const {
+    std::vector<double> parts;
+    for (int j = 0; j < joints(); ++j)
+      parts.push_back(std::clamp(ds[j], -room_to_move(at_, j, -1), room_to_move(at_, j, 1)));
+    for (const CoupledDescent& group : coupled_) {
+      double least = 1;
+      for (const int j : group.joints())
+        if (ds[j] != 0) least = std::min(least, parts[j] / ds[j]);
+      for (const int j : group.joints()) parts[j] = least * ds[j];
+    }
+    return parts;
+  }
+
+  // Moves held joints to equilibrium, which Newton's first step looks for to first order: by all of the
+  // parts, or by half of them again and again where none is near. Makes of the parts what they were moved by.
+  bool move_by(std::vector<double>& parts) {
+    const auto moved_places = [&] {
+      std::vector<double> places = present_places(at_);
+      for (std::size_t j = 0; j < places.size(); ++j) places[j] += parts[j];
+      return places;
+    };
+    constexpr int most_halvings = 5;
+    std::vector<double> all = parts;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+      nearby_only_ = true;
+      const StaticReport found = equilibrium_of(held_at(at_, moved_places()));
+      nearby_only_ = false;
+      if (found.status == StaticStatus::converged) return true;
+      for (double& part : parts) part /= 2;
+    }
+    parts = std::move(all);
+    return hold_in_equilibrium(held_at(at_, moved_places()));
+  }
+
+  // Moves held joints by ds from equilibrium to equilibrium, never past a node at once, and carries length
+  // control along.
+  bool move_places(std::vector<double> ds) {
+    while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
+      std::vector<double> parts = parts_at_once(ds);
+      if (!move_by(parts)) return false;
+      for (int j = 0; j < joints(); ++j) {
+        ds[j] -= parts[j];
+        const int dof = at_.system->mesh().joints[j].place;
+        if (dof >= 0) at_.state.v[dof] = parts[j];  // length control looks at it
+      }
+      const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
+      if (!settle_mesh() || !goes_on(meeting_bodies(at_))) return false;
+      at_.state.v.setZero();
+      if (at_.system != before && !hold_in_equilibrium(held_at(at_, present_places(at_)))) return false;
+    }
+    return true;
+  }
+
+  // Equilibrium with the joints free that are not held, if there is one nearby; else nothing changes.
+  void free_bodies(const std::vector<bool>& held) {
+    MeshedState freed{at_.system->replanned(at_.system->mesh().plan, held), at_.state};
+    bool near = find_equilibrium(freed, held).status == StaticStatus::converged;
+    for (int j = 0; near && j < joints(); ++j) {
+      const auto s = place(*freed.system, freed.state, j);
+      near = !s || std::abs(*s - *place(*at_.system, at_.state, j)) < 1e-3 * spacing(j);
+    }
+    if (near) at_ = std::move(freed);
+    report_.freed = near || std::count(held.begin(), held.end(), false) == 0;
+  }
+
+  MeshedState& at_;
+  const LengthControl& control_;
+  const std::function<bool()>& interrupted_;
+  std::optional<double> equilibrium_;  // the time of the last one found
+  std::vector<CoupledDescent> coupled_;
+  bool watches_ = false;
+  bool nearby_only_ = false;  // an equilibrium that Newton's method finds at once
+  RestReport report_;
+};
+
+// The joints whose bodies look for their place; `otherwise`: those that do not say.
+std::vector<bool> sliding_at_rest(const BeamModel& model, StaticPlace otherwise) {
+  std::vector<bool> slides;
+  for (const SlidingJoint& joint : model.joints) {
+    const StaticPlace rest = joint.rest == StaticPlace::automatic ? otherwise : joint.rest;
+    slides.push_back(!joint.motion && rest == StaticPlace::free);
+  }
+  return slides;
+}
+
+}  // namespace
+
+RestReport find_held_equilibrium(MeshedState& at, const std::function<bool()>& interrupted) {
+  return RestSearch(at, LengthControl{}, interrupted).held_equilibrium();
+}
+
+RestReport find_start(MeshedState& at, const LengthControl& control,
+                      const std::function<bool()>& interrupted) {
+  const std::vector<bool> slides = sliding_at_rest(at.system->model(), StaticPlace::held);
+  const bool any = std::find(slides.begin(), slides.end(), true) != slides.end();
+  RestSearch search(at, control, interrupted);
+  search.watching_snaps();
+  return any ? search.rest(slides) : search.held_start();
+}
+
+RestReport find_rest(MeshedState& at, const LengthControl& control,
+                     const std::function<bool()>& interrupted) {
+  return RestSearch(at, control, interrupted)
+      .watching_snaps()
+      .rest(sliding_at_rest(at.system->model(), StaticPlace::free));
+}
+
+RestReport find_next_rest(MeshedState& at, double t, const LengthControl& control,
+                          const std::function<bool()>& interrupted) {
+  RestSearch search(at, control, interrupted, at.state.t);
+  at.state.t = t;
+  return search.watching_snaps().rest(sliding_at_rest(at.system->model(), StaticPlace::free));
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,56 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fem/motion/run/simulation_options.h"
+#include "fem/system/beam_system.h"
+
+namespace nurbeam {
+
+/// A run that is taken step by step: from the drawn shape of a model, or from equilibrium, to its end. All is
+/// in the model's own coordinates.
+class Simulation {
+ public:
+  /// With `from`, which must belong to the same model and options, a motion goes on from there.
+  Simulation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,
+             SimulationOptions options, SimulationObserver observer = {}, const Checkpoint* from = nullptr);
+  Simulation(Simulation&&) noexcept;
+  ~Simulation();
+
+  /// Takes what is next: the state at time 0; then a step, at most to the next output time, with what follows
+  /// from it, or the next state at rest. Returns whether more is to come. What a force or the observer throws
+  /// arrives unchanged; a motion can then go on from the last step, while a search for rest ends the run.
+  bool advance();
+  /// Changes forces, in place and in their number, between two steps. Returns whether the motion goes on.
+  bool change_forces(const std::function<void(std::vector<Force>&)>& change);
+
+  const BeamSystem& system() const;
+  const State& state() const;
+  SimulationReport report() const;
+  /// The state with what is known of the steps since the last snapshot.
+  Snapshot present() const;
+  /// Of the present moment. Throws std::invalid_argument before the first call of advance(), and in statics.
+  Checkpoint checkpoint() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies
+/// that leave or stop at a beam's end. A static analysis has a snapshot at rest under the loads of each
+/// output time, followed from one to the next; where there is none, of time 0. Sliding bodies come to rest.
+/// With `from`, which must belong to the same model and options, a motion goes on from there: with
+/// generalized-alpha, Radau and the explicit methods bit by bit as if it had never been interrupted; IDA
+/// starts afresh with a short step. All is in the model's own coordinates.
+SimulationReport simulate(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
+                          const SimulationOptions& options, const SimulationObserver& observer,
+                          const Checkpoint* from = nullptr);
+/// The same of a copy of the model.
+SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
+                          const SimulationOptions& options, const SimulationObserver& observer,
+                          const Checkpoint* from = nullptr);
+
+}  // namespace nurbeam

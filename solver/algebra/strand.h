@@ -1,0 +1,76 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+#include "solver/algebra/banded_lu.h"
+#include "solver/algebra/sparse_lu.h"
+
+namespace nurbeam {
+
+/// A few machine epsilons: what cancellation leaves of a pivot that is zero in exact arithmetic.
+inline constexpr double smallest_reciprocal_condition = 1e-15;
+
+/// Unknowns of a matrix that are coupled with none of the others but those of the part that is eliminated
+/// last, in the order of their elimination.
+struct StrandOrder {
+  /// An entry of B (row of A, column of S) or of C (column of A, row of S).
+  struct Entry {
+    int value, place, part;  ///< among the matrix's values; of A; of S
+  };
+
+  /// `in_part`: of each unknown its place in the part, or -1.
+  StrandOrder(const SparseView& matrix, BandOrder of, const std::vector<int>& in_part);
+
+  std::shared_ptr<const BandOrder> band;
+  std::vector<Entry> into, out_of;  ///< by part, then by place
+};
+
+/// The factors of a strand, A = L U, with V = L^-1 B and W = C U^-1: within its band, or by KLU, whose L is
+/// then A, and U is 1.
+class Strand {
+ public:
+  Strand(std::shared_ptr<const StrandOrder> order, const SparseView& matrix);
+  ~Strand();
+  Strand(Strand&&) noexcept;
+
+  /// Whether A is regular; then its factors, V and W, with `part` columns and rows.
+  bool factorise(const SparseView& matrix, std::size_t part);
+  /// Takes W V from what is left of S.
+  void take_from(Eigen::MatrixXd& schur) const;
+
+  /// Its band, where it has a narrow one.
+  const BandedLu* banded() const { return is_banded_ ? &lu_ : nullptr; }
+  /// y = L^-1 b of its share of a right-hand side.
+  void lower(const Eigen::VectorXd& rhs);
+  /// W y of one row.
+  double beside(std::size_t part) const;
+  /// x = U^-1 (y - V x of the part), where x has that of the part.
+  void upper(const Eigen::VectorXd& part, Eigen::VectorXd& x);
+
+ private:
+  // A row of W or a column of V: zero but from `first` on.
+  struct Piece {
+    int first = 0;
+    std::vector<double> values;
+  };
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(order_->band->unknown.size()); }
+  const BandOrder& band() const { return *order_->band; }
+  void extract(const SparseView& matrix);
+  double factors(const SparseView& matrix);
+  void solve_whole(BandedLu::Places& y) const;
+  void keep(Piece& piece, int first, int last);
+  static double product(const Piece& a, const Piece& b);
+
+  std::shared_ptr<const StrandOrder> order_;
+  bool is_banded_ = false, is_structurally_regular_ = true;
+  BandedLu lu_;
+  std::unique_ptr<SparseLu<double>> sparse_lu_;
+  Eigen::SparseMatrix<double> matrix_;  // that KLU takes
+  std::vector<Piece> into_, out_of_;    // V by columns, W by rows
+  BandedLu::Places y_;
+};
+
+}  // namespace nurbeam

@@ -1,0 +1,15 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+
+#include "solver/system/second_order_system.h"
+
+namespace nurbeam {
+
+/// (n) A motion that nothing resists at an equilibrium, its largest component over its coordinate's scale 1:
+/// where K x = 0, G x = 0 and another equilibrium has been found some way along x, under the same loads.
+/// Nothing where there is none, and where more than ten thousand coordinates hide it in round-off. Of several
+/// any, or a sum. What the system throws arrives unchanged.
+std::optional<Eigen::VectorXd> find_mechanism(const SecondOrderSystem& system, const State& equilibrium);
+
+}  // namespace nurbeam

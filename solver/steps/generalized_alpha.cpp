@@ -1,0 +1,395 @@
+#include "solver/steps/generalized_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/algebra/convergence.h"
+#include "solver/algebra/finite.h"
+#include "solver/algebra/side_by_side.h"
+#include "solver/system/arguments.h"
+#include "solver/system/balance_reference.h"
+#include "solver/system/mass_scale.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr double largest_growth = 2;  ///< of the step under error control
+/// Of the first two, in which it is that of Newton's method more than that of the matrix.
+constexpr double first_contraction = 0.5;
+/// Corrections beyond those that the first step with a matrix took, after which it is taken anew: that costs
+/// about as many.
+constexpr int worth_a_matrix = 12;
+constexpr double longest_use = 50;  ///< of a matrix, in steps
+constexpr double same_step = 1e-6;  ///< relative difference that a matrix does not feel
+constexpr double safety = 0.9;
+
+constexpr const char* generalized_alpha_method = "generalized-alpha";
+
+void check(const GeneralizedAlpha& settings) {
+  require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1, generalized_alpha_method, "rho_infinity ",
+          settings.rho_infinity, " is not in [0, 1]");
+  require(settings.newton_tolerance > 0, generalized_alpha_method, "newton_tolerance ",
+          settings.newton_tolerance, " is not positive");
+  require(settings.max_iterations > 0, generalized_alpha_method, "max_iterations ", settings.max_iterations,
+          " is not positive");
+  require(settings.max_halvings >= 0, generalized_alpha_method, "max_halvings ", settings.max_halvings,
+          " is negative");
+  require(settings.tolerance >= 0, generalized_alpha_method, "tolerance ", settings.tolerance,
+          " is negative");
+}
+
+/// Unknowns that are worked on at once: what an iteration reads and writes of them stays at hand, and long
+/// vectors are shared between threads.
+constexpr long piece = 4096;
+
+/// The part of a vector from one entry to before another.
+template <class Vector>
+auto part(Vector& vector, long first, long end) {
+  return vector.segment(first, end - first);
+}
+
+/// The largest of some numbers, 0 of none; not a number where one of them is not finite.
+template <class Numbers>
+double largest(const Numbers& numbers) {
+  if (!all_finite(numbers)) return std::numeric_limits<double>::quiet_NaN();
+  return numbers.size() > 0 ? numbers.template lpNorm<Eigen::Infinity>() : 0;
+}
+
+}  // namespace
+
+GeneralizedAlphaIntegrator::Parameters GeneralizedAlphaIntegrator::parameters(double rho_infinity) {
+  const double alpha_m = (2 * rho_infinity - 1) / (rho_infinity + 1);
+  const double alpha_f = rho_infinity / (rho_infinity + 1);
+  const double gamma = 0.5 + alpha_f - alpha_m;
+  const double beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+  // alg stands for a at t + (alpha_m - alpha_f) h: with it and the exact q and v, the formula for q' is wrong
+  // by position_error h^3 d3q/dt3.
+  const double position_error = 1.0 / 6 - 0.5 * (alpha_m - alpha_f) - beta;
+  return {alpha_m, alpha_f, beta, gamma, position_error};
+}
+
+GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
+                                                       const SecondOrderSystem& system, State start)
+    : GeneralizedAlphaIntegrator(settings, system, std::move(start), 1) {
+  mass_scale_ = nurbeam::mass_scale(system, state_, matrix());
+  // The first step asks for that room again: what comes before it may have to do with as much.
+  kkt_.resize(0);
+}
+
+GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings,
+                                                       const SecondOrderSystem& system, State start,
+                                                       double mass_scale)
+    : settings_(settings), system_(&system), state_(std::move(start)), mass_scale_(mass_scale) {
+  check(settings_);
+  const int n = system.coordinate_count();
+  const int m = system.constraint_count();
+  require_sizes(generalized_alpha_method, state_, system);
+  parameters_ = parameters(settings_.rho_infinity);
+  algorithmic_acceleration_ = state_.a;
+  jerk_ = Eigen::VectorXd::Zero(n);
+  inverse_scale_ = system.coordinate_scale().cwiseInverse();
+  trial_ = state_;
+  trial_algorithmic_ = state_.a;
+  residual_.resize(n + m);
+  reference_.resize(n + m);
+}
+
+IntegratorHistory GeneralizedAlphaIntegrator::history() const {
+  IntegratorHistory history{
+      {last_step_, last_error_, mass_scale_, 1.0 * first_corrections_, 1.0 * more_corrections_},
+      {},
+      linearisation_};
+  history.vectors.reserve(2);
+  history.vectors.push_back(algorithmic_acceleration_);
+  history.vectors.push_back(jerk_);
+  return history;
+}
+
+void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& history) {
+  require_sizes(generalized_alpha_method, state, *system_);
+  require(history.numbers.size() == 5 && history.vectors.size() == 2, generalized_alpha_method,
+          "the history is not one of this method");
+  for (const Eigen::VectorXd& vector : history.vectors)
+    require_size(generalized_alpha_method, "the history", vector.size(), system_->coordinate_count());
+  if (history.linearisation) require_sizes(generalized_alpha_method, history.linearisation->state, *system_);
+  linearisation_ = history.linearisation;
+  state_ = std::move(state);
+  algorithmic_acceleration_ = history.vectors[0];
+  jerk_ = history.vectors[1];
+  last_step_ = history.numbers[0];
+  last_error_ = history.numbers[1];
+  mass_scale_ = history.numbers[2];
+  first_corrections_ = static_cast<int>(history.numbers[3]);
+  more_corrections_ = static_cast<int>(history.numbers[4]);
+}
+
+StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const IntegratorHistory& history,
+                                              double step) {
+  restore(before, history);
+  last_step_ = last_error_ = 0;
+  linearisation_ = nullptr;
+  jerk_.setZero();
+  mass_scale_ = nurbeam::mass_scale(*system_, state_, matrix());
+  return advance_within(step, 0, 0);
+}
+
+StepReport GeneralizedAlphaIntegrator::advance(double step) {
+  return advance_within(step, settings_.max_halvings, settings_.tolerance);
+}
+
+StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvings, double tolerance) {
+  StepReport report{.status = StepStatus::inadmissible, .next_step = step};
+  const double limit = system_->step_limit(state_);
+  if (!(step > 0) || !(limit > 0)) return report;
+  double h = std::min(step, limit);
+  for (int i = 0; i <= max_halvings && std::isfinite(h) && state_.t + h > state_.t; ++i) {
+    report.status = attempt(h, report);
+    double shorter = 0.5;
+    if (report.status == StepStatus::converged) {
+      report.local_error = local_error(h);
+      if (tolerance == 0 || report.local_error <= tolerance) {
+        report.step = h;
+        if (tolerance > 0) report.next_step = next_step(h, tolerance, report);
+        last_error_ = report.local_error;
+        accept(h);
+        return report;
+      }
+      report.status = StepStatus::inaccurate;
+      shorter = std::max(0.2, safety * std::cbrt(tolerance / report.local_error));
+    }
+    ++report.rejected;
+    h *= shorter;
+  }
+  return report;
+}
+
+StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) {
+  if (!predict(step)) return StepStatus::not_converged;
+  if (!system_->admissible(trial_)) return StepStatus::inadmissible;
+  if (!has_matrix_for(step)) linearisation_ = nullptr;
+  const bool has_served = linearisation_ != nullptr;
+  Convergence convergence;
+  for (int i = 0; i < settings_.max_iterations; ++i) {
+    evaluate_residual();
+    ++report.newton_iterations;
+    const bool is_kept = linearisation_ && linearise_again() && (i > 0 || renew_moving_part());
+    if (!is_kept && !linearise(trial_point(step), trial_))
+      return all_finite(residual_) ? StepStatus::singular_matrix : StepStatus::not_converged;
+    report.residual_norm = scale_residual(step);
+    if (!std::isfinite(report.residual_norm)) return StepStatus::not_converged;
+    const double correction = find_correction();
+    if (!std::isfinite(correction)) return StepStatus::not_converged;
+    // A matrix from elsewhere that leads away is taken anew, not followed.
+    if (is_kept && correction > std::max(convergence.last_correction(), settings_.newton_tolerance)) {
+      linearisation_ = nullptr;
+      continue;
+    }
+    correct(step);
+    if (!system_->admissible(trial_)) return StepStatus::inadmissible;
+    const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
+    // What is below the tolerance may be round-off, which nothing contracts.
+    const bool stale = correction > settings_.newton_tolerance &&
+                       !convergence.contracts(i == 1 ? first_contraction : Convergence::good_contraction);
+    if (stale) linearisation_ = nullptr;
+    if (!done) continue;
+    if (!has_served || stale)
+      first_corrections_ = i, more_corrections_ = 0;
+    else if ((more_corrections_ += std::max(0, i - first_corrections_)) > worth_a_matrix)
+      linearisation_ = nullptr;
+    return StepStatus::converged;
+  }
+  return StepStatus::not_converged;
+}
+
+void GeneralizedAlphaIntegrator::rest() {
+  factorised_ = nullptr;
+  solver_ = {};
+  kkt_ = {};
+}
+
+bool GeneralizedAlphaIntegrator::has_matrix_for(double step) const {
+  return linearisation_ && std::abs(linearisation_->step / step - 1) <= same_step &&
+         std::abs(trial_.t - linearisation_->state.t) <= longest_use * step;
+}
+
+Eigen::Map<Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::matrix() {
+  const SparsePattern& pattern = system_->tangent_pattern();
+  kkt_.resize(static_cast<Eigen::Index>(pattern.rows().size()));
+  return pattern.matrix_of(kkt_.data());
+}
+
+Eigen::Map<const Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::iteration_matrix() const {
+  const SparsePattern& pattern = system_->tangent_pattern();
+  return {pattern.size(),        pattern.size(), kkt_.size(), pattern.column_starts().data(),
+          pattern.rows().data(), kkt_.data()};
+}
+
+/// Makes the matrix of that place the one that corrects. `still`: a copy of its state, which is worked in and
+/// comes back as it was. False where the matrix is singular.
+bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> at, State& still) {
+  linearisation_ = std::move(at);
+  factorised_ = nullptr;
+  const TangentWeights weights = weights_of(linearisation_->step);
+  system_->tangent(linearisation_->state, weights, matrix());
+  if (!solver_.factorise(matrix(), system_->moving_unknowns())) {
+    linearisation_ = nullptr;
+    return false;
+  }
+  system_->moving_tangent(linearisation_->state, weights, moving_part_);
+  const double step = linearisation_->step;
+  measure_balance(*system_, linearisation_->state, kkt_.data(),
+                  {parameters_.beta * step * step, mass_scale_, settings_.newton_tolerance}, inverse_scale_,
+                  still, reference_);
+  factorised_ = linearisation_;
+  return true;
+}
+
+/// The same for the matrix that the next iteration takes, if another one was factorised since.
+bool GeneralizedAlphaIntegrator::linearise_again() {
+  if (factorised_ == linearisation_) return true;
+  State still = linearisation_->state;
+  return linearise(linearisation_, still);
+}
+
+/// The trial state as the place of a new matrix.
+std::shared_ptr<const Linearisation> GeneralizedAlphaIntegrator::trial_point(double step) {
+  linearisation_ = factorised_ = nullptr;
+  if (spare_.use_count() != 1) spare_ = std::make_shared<Linearisation>();
+  spare_->state = trial_;
+  spare_->step = step;
+  return spare_;
+}
+
+/// Makes the moving part of the matrix that of the trial state. False where the matrix is singular then.
+bool GeneralizedAlphaIntegrator::renew_moving_part() {
+  if (moving_part_.size() == 0) return true;
+  system_->moving_tangent(trial_, weights_of(linearisation_->step), moved_part_);
+  moved_part_ -= moving_part_;
+  return solver_.renew(moved_part_);
+}
+
+TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  return {.mass = (1 - alpha_m) / (1 - alpha_f) / mass_scale_,
+          .damping = gamma * step / mass_scale_,
+          .stiffness = beta * step * step / mass_scale_};
+}
+
+/// Calls use(alg) with that part of the method's acceleration variable moved to the step of the attempt.
+template <class Use>
+auto GeneralizedAlphaIntegrator::with_start(long first, long end, const Use& use) const {
+  if (starts_anew_) return use(part(state_.a, first, end));
+  return use(part(algorithmic_acceleration_, first, end) + of_jerk_ * part(jerk_, first, end));
+}
+
+/// The trial state whose true acceleration and multipliers are those of the last state; whether it is finite.
+bool GeneralizedAlphaIntegrator::predict(double step) {
+  const double alpha_m = parameters_.alpha_m, beta = parameters_.beta, gamma = parameters_.gamma;
+  const double h = step;
+  starts_anew_ = last_step_ > 0 && step > largest_rescaling * last_step_;
+  of_jerk_ = last_step_ > 0 ? (alpha_m - parameters_.alpha_f) * (h - last_step_) : 0;
+  for (Eigen::VectorXd* vector : {&trial_.q, &trial_.v, &trial_.a}) vector->resize(state_.q.size());
+  const double not_finite = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
+    const auto of = [&](auto& vector) { return part(vector, first, end); };
+    auto after = of(trial_algorithmic_);
+    with_start(first, end, [&](const auto& alg) {
+      after = (of(state_.a) - alpha_m * alg) / (1 - alpha_m);
+      of(trial_.q) = of(state_.q) + h * of(state_.v) + h * h * ((0.5 - beta) * alg + beta * after);
+      of(trial_.v) = of(state_.v) + h * ((1 - gamma) * alg + gamma * after);
+    });
+    of(trial_.a) = of(state_.a);
+    const bool is_finite = all_finite(of(trial_.q)) && all_finite(of(trial_.v)) && all_finite(of(trial_.a));
+    return is_finite ? 0.0 : 1.0;
+  });
+  trial_.t = state_.t + h;
+  trial_.lambda = state_.lambda;
+  trial_.memory = state_.memory;
+  return not_finite == 0 && all_finite(trial_.lambda);
+}
+
+/// Of the trial state, as the system gives it.
+void GeneralizedAlphaIntegrator::evaluate_residual() {
+  const Eigen::Index n = trial_.q.size();
+  system_->residual(trial_, residual_.head(n), residual_.tail(trial_.lambda.size()));
+}
+
+/// Scales the residual as the matrix is scaled; returns the largest of it over reference, not a number where
+/// it is not finite.
+double GeneralizedAlphaIntegrator::scale_residual(double step) {
+  const double factor = parameters_.beta * step * step / mass_scale_;
+  const Eigen::Index n = trial_.q.size();
+  const double of_forces = largest_of_pieces(n, piece, [&](long first, long end) {
+    auto rows = part(residual_, first, end);
+    rows *= factor;
+    return largest(rows.cwiseProduct(part(reference_, first, end)));
+  });
+  const Eigen::Index m = trial_.lambda.size();
+  const double of_constraints = largest(residual_.tail(m).cwiseProduct(reference_.tail(m)));
+  return of_constraints > of_forces || std::isnan(of_constraints) ? of_constraints : of_forces;
+}
+
+/// Solves for the correction that answers the residual. Returns the largest correction of q over the
+/// coordinate scale, not a number where one is not finite.
+double GeneralizedAlphaIntegrator::find_correction() {
+  Eigen::VectorXd& correction = residual_;
+  solver_.solve(residual_, correction);
+  if (!all_finite(correction.tail(trial_.lambda.size()))) return std::numeric_limits<double>::quiet_NaN();
+  return largest_of_pieces(trial_.q.size(), piece, [&](long first, long end) {
+    return largest(part(correction, first, end).cwiseProduct(part(inverse_scale_, first, end)));
+  });
+}
+
+/// Corrects the trial state: q directly, v, a and alg as the method's formulas follow it.
+void GeneralizedAlphaIntegrator::correct(double step) {
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const double of_velocity = gamma / (beta * step), of_algorithmic = 1 / (beta * step * step);
+  const double of_acceleration = (1 - alpha_m) / (1 - alpha_f) * of_algorithmic;
+  const Eigen::VectorXd& correction = residual_;
+  by_pieces(trial_.q.size(), piece, [&](long first, long end) {
+    const auto of = [&](auto& vector) { return part(vector, first, end); };
+    const auto less = of(correction);
+    of(trial_.q) -= less;
+    of(trial_.v) -= of_velocity * less;
+    of(trial_.a) -= of_acceleration * less;
+    of(trial_algorithmic_) -= of_algorithmic * less;
+  });
+  trial_.lambda -= mass_scale_ * of_algorithmic * correction.tail(trial_.lambda.size());
+}
+
+/// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate
+/// scale.
+double GeneralizedAlphaIntegrator::local_error(double step) const {
+  const double greatest = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
+    return with_start(first, end, [&](const auto& start) {
+      const auto moved = part(trial_algorithmic_, first, end) - start;
+      return largest(moved.cwiseProduct(part(inverse_scale_, first, end)));
+    });
+  });
+  return std::abs(parameters_.position_error) * step * step * greatest;
+}
+
+/// A proportional-integral controller for a local error of third degree; no growth right after a rejection.
+double GeneralizedAlphaIntegrator::next_step(double step, double tolerance, const StepReport& report) const {
+  const double smallest = 1e-12 * tolerance;
+  const double relative = std::max(report.local_error, smallest) / tolerance;
+  const double last = std::max(last_error_, smallest) / tolerance;
+  const double integral = last_error_ > 0 ? std::pow(last, 0.4 / 3) : 1;
+  const double growth = safety * std::pow(relative, -0.7 / 3) * integral;
+  return step * std::clamp(growth, 0.2, report.rejected > 0 ? 1.0 : largest_growth);
+}
+
+void GeneralizedAlphaIntegrator::accept(double step) {
+  by_pieces(state_.q.size(), piece, [&](long first, long end) {
+    with_start(first, end, [&](const auto& start) {
+      part(jerk_, first, end) = (part(trial_algorithmic_, first, end) - start) / step;
+    });
+  });
+  std::swap(state_, trial_);
+  std::swap(algorithmic_acceleration_, trial_algorithmic_);
+  last_step_ = step;
+  state_.memory = system_->committed(state_);
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,2 @@
+#pragma once
+#include "fem/motion/run/simulation.h"
