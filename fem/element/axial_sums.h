@@ -4,8 +4,9 @@
 #include <optional>
 
 #include "fem/element/inertia.h"
+#include "fem/element/quadrature.h"
 #include "fem/material/assumed_axial.h"
-#include "fem/material/section.h"
+#include "fem/material/point_law.h"
 
 namespace nurbeam {
 
@@ -44,31 +45,37 @@ struct AxialSums {
     y_q.row(0) -= free_strain * y_q.row(3);
   }
 
-  void add_force(double EA, ElementVector<D>& f) const {
-    f += y_q.transpose() * AssumedAxialEnergy(EA, y).gradient;
+  /// `free`: the strain that has been taken out.
+  AssumedAxialEnergy energy(const BeamProperties& beam, double free) const {
+    return assumed_axial_energy<GaussRule>(beam, y, free);
   }
-  void add_tangent(double EA, double k, const ElementMatrix<D>& I_qq, ElementMatrix<D>& K) const {
-    const AssumedAxialEnergy U(EA, y);
+  void add_force(const BeamProperties& beam, double free, ElementVector<D>& f) const {
+    f += y_q.transpose() * energy(beam, free).gradient;
+  }
+  void add_tangent(const BeamProperties& beam, double free, double k, const ElementMatrix<D>& I_qq,
+                   ElementMatrix<D>& K) const {
+    const AssumedAxialEnergy U = energy(beam, free);
     K += k * (y_q.transpose() * U.hessian() * y_q + U.gradient[0] * I_qq);
     for (const int end : {0, 1})
       K.diagonal().template segment<D>(Layout::slope(end)).array() += k * U.gradient[1 + end];
   }
 };
 
-/// The viscosity eta = beta S of a tension S = EA I / l, without the strain that carries no force; none where
-/// that is compression, or as it is held to be.
+/// TensionDamping with its gradient in q.
 template <int D>
 struct TautViscosity {
   double value = 0;                                      ///< [N s]
   ElementVector<D> gradient = ElementVector<D>::Zero();  ///< in q
 
   TautViscosity() = default;
-  TautViscosity(const BeamProperties& properties, const AxialSums<D>& sums, std::optional<bool> taut) {
+  /// `sums`: without the strain `free`, which carries no force.
+  TautViscosity(const BeamProperties& properties, const AxialSums<D>& sums, double free,
+                std::optional<bool> taut) {
     const double I = sums.y[0], l = sums.y[3];
     if (!(properties.tension_damping > 0) || !taut.value_or(I > 0)) return;
-    const double factor = properties.tension_damping * properties.axial_stiffness / l;
-    value = factor * I;
-    gradient = factor * (sums.y_q.row(0) - I / l * sums.y_q.row(3)).transpose();
+    const TensionDamping<double> damping(properties, I / l, free, 1);
+    value = damping.value;
+    gradient = damping.by_strain / l * (sums.y_q.row(0) - I / l * sums.y_q.row(3)).transpose();
   }
 };
 

@@ -24,13 +24,14 @@ BeamElement<D>::BeamElement(const ReferenceCurve& curve, const BeamProperties& p
   if (!fixed() && curve.metric() == Metric::label)
     throw std::invalid_argument("an element whose ends move needs the metric of the drawn curve");
   if (!fixed()) return;
-  const auto own = std::make_shared<Own>(Own{FixedSums::zero(), {}});
+  const auto own = std::make_shared<Own>();
   int point = 0;
   for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double s, double weight) {
-    add_point(point++ % PointPack::points, shape, weight, curve.strain(s), *own);
+    add_point(point++ % GaussRule::size, shape, weight, curve.strain(s), *own);
   });
   own->sums.length = s_b - s_a;
-  own->sums.strain0.template tail<2>() << curve.strain(s_a), curve.strain(s_b, true);
+  own->sums.strain0[1] = curve.strain(s_a);
+  own->sums.strain0[2] = curve.strain(s_b, true);
   own_ = own;
 }
 
@@ -48,15 +49,19 @@ void BeamElement<D>::stand_beside(std::shared_ptr<FixedLanes> others, int lane) 
 template <int D>
 void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0,
                                Own& own) const {
-  const Eigen::Vector4d S = row(shape.value), S1 = row(shape.d1);
-  own.sums.mass += properties_->mass_per_length * weight * S * S.transpose();
-  own.sums.load_factor += weight * S;
-  own.sums.stretch += weight * S1 * S1.transpose();
+  const double mass = properties_->mass_per_length * weight;
+  for (int k = 0; k < 4; ++k) {
+    own.sums.load_factor[k] += weight * shape.value[k];
+    for (int l = 0; l < 4; ++l) {
+      own.sums.mass[k][l] += mass * shape.value[k] * shape.value[l];
+      own.sums.stretch[k][l] += weight * shape.d1[k] * shape.d1[l];
+    }
+  }
   own.sums.strain0[0] += weight * eps0;
   if (point == 0) own.packs.emplace_back();
   PointPack& pack = own.packs.back();
   // The last point fills the lanes beyond it.
-  const int more = point + 1 == PointPack::points ? PointPack::lanes - point : 1;
+  const int more = point + 1 == GaussRule::size ? Lanes::SizeAtCompileTime - point : 1;
   for (int k = 0; k < 4; ++k) {
     pack.S1[k].segment(point, more) = shape.d1[k];
     pack.S2[k].segment(point, more) = shape.d2[k];
@@ -74,10 +79,7 @@ bool BeamElement<D>::assumes_strain() const {
 
 template <int D>
 AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
-  if (fixed())
-    return with_sums([&](const FixedSums& sums) {
-      return fixed_sums(sums, {q, ElementVector<D>::Zero(), ElementVector<D>::Zero()});
-    });
+  if (fixed()) return fixed_axial_sums(q);
   AxialSums<D> sums(q);
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
   for_each_point(q, [&](const ShapeFunctions<Jet>& shape, const Jet&, const Jet& weight) {
@@ -90,7 +92,8 @@ AxialSums<D> BeamElement<D>::axial_sums(const ElementVector<D>& q) const {
 
 template <int D>
 Eigen::Matrix4d BeamElement<D>::stretch(const ElementVector<D>& q) const {
-  if (fixed()) return with_sums([](const FixedSums& sums) { return sums.stretch; });
+  if (fixed())
+    return with_sums([](const FixedSums& sums) { return Eigen::Matrix4d(matrix_of(sums.stretch)); });
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for_each_point(q[ElementLayout<D>::place(0)], q[ElementLayout<D>::place(1)],
                  [&](const ShapeFunctions<double>& shape, double, double weight) {
@@ -111,24 +114,16 @@ TautViscosity<D> BeamElement<D>::taut_viscosity(const ElementState<D>& x) const 
   if (!(properties_->tension_damping > 0)) return {};
   AxialSums<D> sums = axial_sums(x.q);
   sums.take_out(x.free_strain);
-  return {*properties_, sums, x.taut};
+  return {*properties_, sums, x.free_strain, x.taut};
 }
 
 template <int D>
 double BeamElement<D>::axial_mismatch(const ElementVector<D>& q) const {
   const Eigen::Vector4d y = axial_sums(q).y;
   const AssumedStrain assumed(y[0], y[1], y[2], y[3]);
+  if (is_one_part()) return fixed_axial_mismatch(q, assumed);
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
   double largest = 0;
-  if (is_one_part()) {
-    for_each_pack([&](const PointPack& p) {
-      const VectorLanes<D> rs = combination<D>(e, p.S1);
-      const Lanes pointwise = (dot<D>(rs, rs) - 1) / 2 - p.eps0;
-      for (int g = 0; g < PointPack::points; ++g)
-        largest = std::max(largest, std::abs(pointwise[g] - assumed.at(GaussRule::points[g])));
-    });
-    return largest;
-  }
   const double s_a = q[ElementLayout<D>::place(0)], s_b = q[ElementLayout<D>::place(1)];
   for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double s, double) {
     const double pointwise = ((e * row(shape.d1)).squaredNorm() - 1) / 2 - curve_->strain(s);
@@ -159,7 +154,7 @@ std::optional<AssumedStrain> BeamElement<D>::assumed_strain(const ElementVector<
 
 template <int D>
 ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& load) const {
-  if (fixed()) return with_sums([&](const FixedSums& sums) { return fixed_energy(sums, x, load); });
+  if (fixed()) return fixed_energy(x, load);
   using Layout = ElementLayout<D>;
   ElementEnergy sum;
   const auto motion = MovingPoint<D>::motion(x);
@@ -196,28 +191,22 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
   });
   if (!assumes_strain()) return sum;
   axial.take_out(x.free_strain);
-  sum.axial = AssumedAxialEnergy(properties_->axial_stiffness, axial.y).value;
+  sum.axial = axial.energy(*properties_, x.free_strain).value;
   if (!(properties_->damping > 0)) return sum;
   for (const int end : {0, 1}) {
     const Vector rss = e * basis.rows_at(ends[end]).rss.value;
     axial_rate[1 + end] = e.col(2 * end + 1).dot(e_rate.col(2 * end + 1) - rss * w[end]);
   }
-  sum.dissipation += axial_rate.dot(AssumedAxialDamping(axial_viscosity(), axial.y[3], axial_rate).stress);
+  sum.dissipation += axial_rate.dot(AssumedAxialDamping(*properties_, axial.y[3], axial_rate).stress);
   return sum;
 }
 
 template <int D>
 double BeamElement<D>::length(const ElementVector<D>& q) const {
   using Layout = ElementLayout<D>;
+  if (fixed()) return fixed_length(q);
   const ElementNodes<D> e = Layout::nodes(q);
   double sum = 0;
-  if (fixed()) {
-    for_each_pack([&](const PointPack& p) {
-      const VectorLanes<D> rs = combination<D>(e, p.S1);
-      sum += (p.weight * dot<D>(rs, rs).sqrt()).sum();
-    });
-    return sum;
-  }
   for_each_point(q[Layout::place(0)], q[Layout::place(1)],
                  [&](const ShapeFunctions<double>& shape, double, double weight) {
                    sum += weight * (e * row(shape.d1)).norm();

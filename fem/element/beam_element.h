@@ -11,9 +11,9 @@
 #include "fem/element/layout.h"
 #include "fem/element/moving_basis.h"
 #include "fem/element/point_pack.h"
+#include "fem/element/point_response.h"
 #include "fem/element/quadrature.h"
 #include "fem/element/rancf_basis.h"
-#include "fem/material/elastic.h"
 #include "solver/system/second_order_system.h"
 
 namespace nurbeam {
@@ -104,7 +104,7 @@ class BeamElement {
   /// int rho A S_k v ds [kg m/s] for the rates of the nodes, of an element whose ends are fixed. The columns
   /// of the positions add up to the momentum of the whole.
   ElementNodes<D> nodal_momentum(const ElementNodes<D>& rates) const {
-    return with_sums([&](const FixedSums& sums) { return ElementNodes<D>(rates * sums.mass); });
+    return with_sums([&](const FixedSums& sums) { return ElementNodes<D>(rates * matrix_of(sums.mass)); });
   }
   /// Whether it is in tension, as its damping has it.
   bool is_taut(const ElementState<D>& x) const { return taut_viscosity(x).value > 0; }
@@ -157,7 +157,7 @@ class BeamElement {
     FixedSums sums;
     std::vector<PointPack> packs;  // one of each part
   };
-  // Calls use(sums), visit(pack) for those of each part, of an element with fixed ends.
+  // Calls use(sums), visit(pack) with the numbers of each part, of an element with fixed ends.
   template <class Use>
   auto with_sums(const Use& use) const {
     return own_ ? use(own_->sums) : use(beside_->sums(lane_));
@@ -172,22 +172,16 @@ class BeamElement {
   template <class T, class Visit>
   void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
   void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0, Own& own) const;
-  void add_point_forces(const ElementState<D>& x, ElementNodes<D>& force) const;
-  void add_point_energies(const ElementState<D>& x, ElementEnergy& sum) const;
-  ElementVector<D> fixed_force(const FixedSums& sums, const ElementState<D>& x, const Vector& load) const;
-  ElementEnergy fixed_energy(const FixedSums& sums, const ElementState<D>& x, const Vector& load) const;
-  ElementMatrix<D> fixed_tangent(const FixedSums& sums, const ElementState<D>& x,
-                                 const TangentWeights& w) const;
-  void add_fixed_axial_tangent(const FixedSums& sums, const ElementState<D>& x, const TangentWeights& w,
-                               ElementMatrix<D>& K) const;
-  struct FixedStretch {
-    Eigen::Vector4d y;    ///< as AxialSums has it, without the strain that carries no force
-    ElementNodes<D> I_e;  ///< dI/de
-  };
-  static FixedStretch fixed_stretch(const FixedSums& sums, const ElementState<D>& x);
-  static AxialSums<D> fixed_sums(const FixedSums& sums, const ElementState<D>& x);
+  // Calls use(kernel), the FixedKernel of an element with fixed ends.
+  template <class Use>
+  auto with_kernel(double free_strain, std::optional<bool> taut, const Use& use) const;
+  ElementVector<D> fixed_force(const ElementState<D>& x, const Vector& load) const;
+  ElementEnergy fixed_energy(const ElementState<D>& x, const Vector& load) const;
+  ElementMatrix<D> fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const;
+  AxialSums<D> fixed_axial_sums(const ElementVector<D>& q) const;
+  double fixed_length(const ElementVector<D>& q) const;
+  double fixed_axial_mismatch(const ElementVector<D>& q, const AssumedStrain& assumed) const;
   bool assumes_strain() const;
-  double axial_viscosity() const { return properties_->damping * properties_->axial_stiffness; }
   double mass_viscosity() const { return properties_->mass_damping * properties_->mass_per_length; }
   TautViscosity<D> taut_viscosity(const ElementState<D>& x) const;
 

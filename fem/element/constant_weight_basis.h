@@ -2,10 +2,10 @@
 #include <array>
 
 #include "fem/element/chart_place.h"
+#include "fem/element/derivatives.h"
 #include "fem/element/hermite_series.h"
 #include "fem/element/moving_rows.h"
 #include "fem/element/rancf_basis.h"
-#include "fem/material/strain.h"
 
 namespace nurbeam {
 

@@ -9,50 +9,50 @@ template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces,
                                                              std::ptrdiff_t stride) const {
-  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces, stride);
+  Kernel(*this, free_strain, state.sides).add_forces(state, load, forces, stride);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces,
                                                              std::ptrdiff_t stride) const {
-  Kernel{*this, *numbers_, *properties_}.add_forces(state, load, free_strain, forces, stride);
+  Kernel(*this, free_strain, state.sides).add_forces(state, load, forces, stride);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<2>::lanes> ElementBatch<2>::energies(
     const State& state, const Vector& load, double free_strain) const {
-  return Kernel{*this, *numbers_, *properties_}.energies(state, load, free_strain);
+  return Kernel(*this, free_strain, state.sides).energies(state, load);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<3>::lanes> ElementBatch<3>::energies(
     const State& state, const Vector& load, double free_strain) const {
-  return Kernel{*this, *numbers_, *properties_}.energies(state, load, free_strain);
+  return Kernel(*this, free_strain, state.sides).energies(state, load);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<double, ElementBatch<2>::lanes> ElementBatch<2>::lengths(
     const State& state) const {
-  return Kernel{*this, *numbers_, *properties_}.lengths(state);
+  return Kernel(*this, 0, state.sides).lengths(state);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<double, ElementBatch<3>::lanes> ElementBatch<3>::lengths(
     const State& state) const {
-  return Kernel{*this, *numbers_, *properties_}.lengths(state);
+  return Kernel(*this, 0, state.sides).lengths(state);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::tangents(const State& state, double free_strain,
                                                            const TangentWeights& w, Tangents& K) const {
-  Kernel{*this, *numbers_, *properties_}.tangents(state, free_strain, w, K);
+  Kernel(*this, free_strain, state.sides).tangents(state, w, K);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::tangents(const State& state, double free_strain,
                                                            const TangentWeights& w, Tangents& K) const {
-  Kernel{*this, *numbers_, *properties_}.tangents(state, free_strain, w, K);
+  Kernel(*this, free_strain, state.sides).tangents(state, w, K);
 }
 
 template <int D>

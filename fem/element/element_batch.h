@@ -54,7 +54,7 @@ class ElementBatch {
 
   /// Tangents in the coordinates of the nodes, by column and row.
   using Tangents = std::array<std::array<ElementLanes, nodal>, nodal>;
-  /// Those of BeamElement::tangent. Precondition: the beam is not damped.
+  /// Those of BeamElement::tangent.
   void tangents(const State& state, double free_strain, const TangentWeights& w, Tangents& K) const;
 
  private:

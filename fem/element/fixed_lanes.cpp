@@ -4,11 +4,6 @@
 
 namespace nurbeam {
 
-FixedSums FixedSums::zero() {
-  return {Eigen::Matrix4d::Zero(), Eigen::Vector4d::Zero(), Eigen::Matrix4d::Zero(), Eigen::Vector3d::Zero(),
-          0};
-}
-
 // There is nothing in them but numbers.
 double FixedLanes::product(int lane, const FixedLanes& other, int lane_of_other) const {
   constexpr int size = sizeof(FixedLanes) / sizeof(ElementLanes);
@@ -38,33 +33,33 @@ void FixedLanes::put(int lane, const FixedSums& sums, const PointPack& pack) {
   }
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l < 4; ++l) {
-      set(mass[k][l], sums.mass(k, l));
-      set(stretch[k][l], sums.stretch(k, l));
+      set(sum.mass[k][l], sums.mass[k][l]);
+      set(sum.stretch[k][l], sums.stretch[k][l]);
     }
-    set(load_factor[k], sums.load_factor[k]);
+    set(sum.load_factor[k], sums.load_factor[k]);
   }
-  for (int k = 0; k < 3; ++k) set(strain0[k], sums.strain0[k]);
-  set(length, sums.length);
+  for (int k = 0; k < 3; ++k) set(sum.strain0[k], sums.strain0[k]);
+  set(sum.length, sums.length);
 }
 
 FixedSums FixedLanes::sums(int lane) const {
   FixedSums sums;
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l < 4; ++l) {
-      sums.mass(k, l) = mass[k][l].of(lane);
-      sums.stretch(k, l) = stretch[k][l].of(lane);
+      sums.mass[k][l] = sum.mass[k][l].of(lane);
+      sums.stretch[k][l] = sum.stretch[k][l].of(lane);
     }
-    sums.load_factor[k] = load_factor[k].of(lane);
+    sums.load_factor[k] = sum.load_factor[k].of(lane);
   }
-  for (int k = 0; k < 3; ++k) sums.strain0[k] = strain0[k].of(lane);
-  sums.length = length.of(lane);
+  for (int k = 0; k < 3; ++k) sums.strain0[k] = sum.strain0[k].of(lane);
+  sums.length = sum.length.of(lane);
   return sums;
 }
 
 // Lanes beyond the points repeat the last one without weight.
 PointPack FixedLanes::pack(int lane) const {
   PointPack pack;
-  for (int i = 0; i < PointPack::lanes; ++i) {
+  for (int i = 0; i < Lanes::SizeAtCompileTime; ++i) {
     const Point& point = at[std::min(i, points - 1)];
     for (int k = 0; k < 4; ++k) {
       pack.S1[k][i] = point.S1[k].of(lane);

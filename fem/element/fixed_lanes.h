@@ -8,15 +8,20 @@
 namespace nurbeam {
 
 /// Integrals over an element whose ends are fixed.
-struct FixedSums {
-  Eigen::Matrix4d mass;         ///< rho A int S_k S_l ds
-  Eigen::Vector4d load_factor;  ///< int S_k ds
-  Eigen::Matrix4d stretch;      ///< int S'_k S'_l ds, G of AxialSums
-  Eigen::Vector3d strain0;      ///< int eps_0 ds and eps_0 at both ends
-  double length;                ///< s_b - s_a [m]
-
-  static FixedSums zero();
+template <class E>
+struct ElementSums {
+  std::array<std::array<E, 4>, 4> mass;     ///< rho A int S_k S_l ds
+  std::array<std::array<E, 4>, 4> stretch;  ///< int S'_k S'_l ds, G of AxialSums
+  std::array<E, 4> load_factor;             ///< int S_k ds
+  std::array<E, 3> strain0;                 ///< int eps_0 ds and eps_0 at both ends
+  E length;                                 ///< s_b - s_a [m]
 };
+using FixedSums = ElementSums<double>;
+
+/// A matrix of FixedSums as Eigen has it.
+inline Eigen::Map<const Eigen::Matrix4d> matrix_of(const std::array<std::array<double, 4>, 4>& numbers) {
+  return Eigen::Map<const Eigen::Matrix4d>(numbers[0].data());
+}
 
 /// One number of each of eight elements, side by side; no number until it is given one. In two halves:
 /// numbers that are wider than the registers of a processor go through memory where compilers copy them.
@@ -34,16 +39,9 @@ struct alignas(8 * sizeof(double)) ElementLanes {
 struct FixedLanes {
   static constexpr int lanes = 8, points = GaussRule::size;
 
-  /// As PointPack has it.
-  struct Point {
-    std::array<ElementLanes, 4> S1, S2;
-    ElementLanes weight, kappa0, eps0;
-  };
+  using Point = PointNumbers<ElementLanes>;
   std::array<Point, points> at = {};
-  std::array<std::array<ElementLanes, 4>, 4> mass = {}, stretch = {};  ///< of FixedSums
-  std::array<ElementLanes, 4> load_factor = {};
-  std::array<ElementLanes, 3> strain0 = {};
-  ElementLanes length = {};
+  ElementSums<ElementLanes> sum = {};
 
   /// The sum of all numbers of an element in a lane of these, each times that in a lane of others.
   double product(int lane, const FixedLanes& other, int lane_of_other) const;

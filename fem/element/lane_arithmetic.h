@@ -2,9 +2,10 @@
 #include <array>
 
 #include "fem/element/fixed_lanes.h"
-#include "solver/algebra/every_processor.h"
+#include "fem/material/numbers.h"
 
-/// Arithmetic of the numbers of eight elements, for sources that are compiled for every processor.
+/// The arithmetic of fem/material/numbers.h of the numbers of eight elements, for sources that are compiled
+/// for every processor.
 namespace nurbeam {
 
 using Lanes8 = ElementLanes;
@@ -24,22 +25,14 @@ NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, const Lanes8& b) {
 NURBEAM_WITHIN Lanes8 operator+(const Lanes8& a, double b) { return {{a.half[0] + b, a.half[1] + b}}; }
 NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a, double b) { return {{a.half[0] - b, a.half[1] - b}}; }
 NURBEAM_WITHIN Lanes8 operator/(const Lanes8& a, double b) { return {{a.half[0] / b, a.half[1] / b}}; }
+NURBEAM_WITHIN Lanes8 operator+(double a, const Lanes8& b) { return {{a + b.half[0], a + b.half[1]}}; }
+NURBEAM_WITHIN Lanes8 operator-(double a, const Lanes8& b) { return {{a - b.half[0], a - b.half[1]}}; }
 NURBEAM_WITHIN Lanes8 operator*(double a, const Lanes8& b) { return {{a * b.half[0], a * b.half[1]}}; }
 NURBEAM_WITHIN Lanes8 operator/(double a, const Lanes8& b) { return {{a / b.half[0], a / b.half[1]}}; }
 NURBEAM_WITHIN Lanes8 operator-(const Lanes8& a) { return {{-a.half[0], -a.half[1]}}; }
 NURBEAM_WITHIN void operator+=(Lanes8& a, const Lanes8& b) { a = a + b; }
 NURBEAM_WITHIN void operator-=(Lanes8& a, const Lanes8& b) { a = a - b; }
 NURBEAM_WITHIN void operator*=(Lanes8& a, const Lanes8& b) { a = a * b; }
-
-template <int D>
-using LaneVector = std::array<Lanes8, D>;
-
-template <int D>
-NURBEAM_WITHIN Lanes8 dot(const LaneVector<D>& a, const LaneVector<D>& b) {
-  Lanes8 sum = a[0] * b[0];
-  for (int d = 1; d < D; ++d) sum += a[d] * b[d];
-  return sum;
-}
 
 NURBEAM_WITHIN Lanes8 square_root(const Lanes8& a) {
   Lanes8 root = a;
@@ -61,6 +54,13 @@ NURBEAM_WITHIN Lanes8 is_zero(const Lanes8& a) {
   for (int i = 0; i < 2; ++i)
     part.half[i] = a.half[i] == 0 ? ElementLanes::Half{} + 1. : ElementLanes::Half{};
   return part;
+}
+
+template <class Function>
+Lanes8 each(const Lanes8& a, const Function& f) {
+  Lanes8 values;
+  for (int i = 0; i < FixedLanes::lanes; ++i) values.set(i, f(a.of(i)));
+  return values;
 }
 
 }  // namespace nurbeam

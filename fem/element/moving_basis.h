@@ -3,9 +3,9 @@
 #include <array>
 
 #include "fem/element/constant_weight_basis.h"
+#include "fem/element/derivatives.h"
 #include "fem/element/moving_rows.h"
 #include "fem/element/rancf_basis.h"
-#include "fem/material/strain.h"
 
 namespace nurbeam {
 

@@ -91,9 +91,9 @@ class ForceSum {
     axial.y[0] = stretch_integral_;
     axial.y_q.row(0) = stretch_.vector().transpose();
     axial.take_out(x_.free_strain);
-    f += TautViscosity<D>(properties_, axial, x_.taut).value * taut_.vector();
+    f += TautViscosity<D>(properties_, axial, x_.free_strain, x_.taut).value * taut_.vector();
     if (!assumed) return f;
-    axial.add_force(properties_.axial_stiffness, f);
+    axial.add_force(properties_, x_.free_strain, f);
     if (properties_.damping > 0) add_axial_damping(axial.y[3], basis, f);
     return f;
   }
@@ -109,8 +109,7 @@ class ForceSum {
       bend[end] = motion_.e * basis.rows_at(s).rss.value;
       rate[1 + end] = slope[end].dot(motion_.e_rate.col(2 * end + 1) - bend[end] * motion_.w[end]);
     }
-    const double viscosity = properties_.damping * properties_.axial_stiffness;
-    const Eigen::Vector3d stress = AssumedAxialDamping(viscosity, l, rate).stress;
+    const Eigen::Vector3d stress = AssumedAxialDamping(properties_, l, rate).stress;
     f += stress[0] * Gradient<D>{stretch_.nodes, place_test_}.vector();
     for (const int end : {0, 1}) {
       f.template segment<D>(Layout::slope(end)) += stress[1 + end] * slope[end];
@@ -136,7 +135,7 @@ class ForceSum {
 
 template <int D>
 ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& load) const {
-  if (fixed()) return with_sums([&](const FixedSums& sums) { return fixed_force(sums, x, load); });
+  if (fixed()) return fixed_force(x, load);
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);

@@ -1,6 +1,6 @@
 #pragma once
 #include "fem/element/inertia.h"
-#include "fem/material/elastic.h"
+#include "fem/element/point_response.h"
 
 namespace nurbeam {
 

@@ -124,7 +124,7 @@ class TangentSum {
       Pair z;
       z << rs.first[j], rss.first[j];
       const double moment_j =
-          k * (elastic.moment_gradient.dot(z) - elastic.bending_stiffness * rows.kappa0_first[j]);
+          k * (elastic.moment_gradient.dot(z) - elastic.moment_slope * rows.kappa0_first[j]);
       for (const int i : {0, 1})
         sums_.places(i, j) +=
             on_r_i[j].dot(r.first[i]) + on_rs_i[j].dot(rs.first[i]) + on_rss_i[j].dot(rss.first[i]) +
@@ -152,13 +152,13 @@ class TangentSum {
     axial.y[0] = stretch_integral_;
     axial.y_q.row(0) = stretch_.vector().transpose();
     axial.take_out(x_.free_strain);
-    if (const TautViscosity<D> eta(properties_, axial, x_.taut); eta.value != 0)
+    if (const TautViscosity<D> eta(properties_, axial, x_.free_strain, x_.taut); eta.value != 0)
       K += eta.value * taut_.matrix() + t_.stiffness * taut_force_.vector() * eta.gradient.transpose();
     if (!assumed_) return K;
     PlaceSums<D> I_qq = stretch_rates_;
     I_qq.of_place = I_qq.by_place;
     I_qq.places = stretch_places_;
-    if (t_.stiffness != 0) axial.add_tangent(properties_.axial_stiffness, t_.stiffness, I_qq.matrix(), K);
+    if (t_.stiffness != 0) axial.add_tangent(properties_, x_.free_strain, t_.stiffness, I_qq.matrix(), K);
     if (properties_.damping > 0) add_axial_damping(axial.y[3], basis, K);
     return K;
   }
@@ -377,7 +377,7 @@ class TangentSum {
       own.row(place) = -bending.vector().transpose();
       own.template block<1, D>(place, at) -= bend.transpose();
     }
-    const AssumedAxialDamping damping(properties_.damping * properties_.axial_stiffness, l, rate);
+    const AssumedAxialDamping damping(properties_, l, rate);
     Rows stress_q = damping.by_rate * rate_q;
     stress_q.col(Layout::place(0)) -= k * damping.by_length;
     stress_q.col(Layout::place(1)) += k * damping.by_length;
@@ -414,7 +414,7 @@ class TangentSum {
 template <int D>
 ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector& load,
                                          const TangentWeights& t) const {
-  if (fixed()) return with_sums([&](const FixedSums& sums) { return fixed_tangent(sums, x, t); });
+  if (fixed()) return fixed_tangent(x, t);
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   if (t.stiffness == 0 && t.damping == 0) {
@@ -433,10 +433,7 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
 template <int D>
 std::array<ElementMatrix<D>, 2> BeamElement<D>::tangents(const ElementState<D>& x, const Vector& load,
                                                          const std::array<TangentWeights, 2>& w) const {
-  if (fixed())
-    return with_sums([&](const FixedSums& sums) {
-      return std::array{fixed_tangent(sums, x, w[0]), fixed_tangent(sums, x, w[1])};
-    });
+  if (fixed()) return {fixed_tangent(x, w[0]), fixed_tangent(x, w[1])};
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   const MovingBasis basis(*curve_, chart_, s_a, s_b);

@@ -1,5 +1,8 @@
 #pragma once
 #include <Eigen/Core>
+#include <variant>
+
+#include "fem/material/section.h"
 
 namespace nurbeam {
 
@@ -11,14 +14,15 @@ namespace nurbeam {
 ///
 /// Two conditions an element, on four (in space six) new unknowns: it can bend without stretching, where the
 /// pointwise strain, a quartic, leaves nothing for bending as EA L^2/EI grows.
-struct AssumedStrain {
-  double c0 = 0, c1 = 0, c2 = 0;
+template <class T>
+struct AssumedStrainOf {
+  T c0, c1, c2;
 
-  AssumedStrain(double integral, double at_a, double at_b, double length)
-      : c0(integral / length), c1((at_b - at_a) / 2), c2((at_a + at_b) / 2 - c0) {}
+  NURBEAM_WITHIN AssumedStrainOf(const T& integral, const T& at_a, const T& at_b, const T& length)
+      : c0(integral / length), c1((at_b - at_a) / 2.), c2((at_a + at_b) / 2. - c0) {}
 
-  double at(double xi) const { return c0 + c1 * (2 * xi - 1) + c2 * (6 * xi * (xi - 1) + 1); }
-  /// What a section carries: without c2, which is the residue of bending and no force.
+  NURBEAM_WITHIN T at(double xi) const { return c0 + (2 * xi - 1) * c1 + (6 * xi * (xi - 1) + 1) * c2; }
+  /// The strain that a section carries: without c2, which is the residue of bending and no force.
   double carried(double xi) const { return c0 + c1 * (2 * xi - 1); }
   /// int eps_hat ds over [xi_1, xi_2] divided by l.
   double mean_part(double xi_1, double xi_2) const {
@@ -28,51 +32,118 @@ struct AssumedStrain {
     return antiderivative(xi_2) - antiderivative(xi_1);
   }
 };
+using AssumedStrain = AssumedStrainOf<double>;
 
-/// The axial energy of an element, U = EA l/2 (c0^2 + c1^2/3 + c2^2/5) [J], as a function of
-/// y = (I, eps_A, eps_B, l), with its gradient and Hessian.
+/// Means over an element of what the axial law has at eps_hat, times the functions by which eps_hat is
+/// phi_0 I/l + phi_A eps_A + phi_B eps_B: phi_0 = 6 xi (1 - xi), phi_A = (1 - xi)(1 - 3 xi), phi_B = xi (3 xi
+/// - 2).
+template <class T>
+struct AxialMeans {
+  T energy;                        ///< of psi [J/m]
+  T by_0, by_a, by_b;              ///< of psi' phi [N]
+  T m00, m0a, m0b, maa, mab, mbb;  ///< of psi'' phi phi [N]
+};
+
+/// The means of a linear law, in closed form: of stresses `stiffness` times a strain.
+template <class T>
+NURBEAM_WITHIN AxialMeans<T> linear_axial_means(double stiffness, const AssumedStrainOf<T>& strain) {
+  const auto& [c0, c1, c2] = strain;
+  const T on_end = filled<T>(stiffness * 2 / 15), on_both = filled<T>(-0.1 * stiffness);
+  return {stiffness / 2 * (c0 * c0 + c1 * c1 / 3. + c2 * c2 / 5.),
+          stiffness * (c0 - c2 / 5.),
+          stiffness * (c2 / 10. - c1 / 6.),
+          stiffness * (c2 / 10. + c1 / 6.),
+          filled<T>(1.2 * stiffness),
+          on_both,
+          on_both,
+          on_end,
+          filled<T>(-stiffness / 30),
+          on_end};
+}
+
+/// The means of the beam's law at a strain less the free one, by the quadrature `Rule` where the law is not
+/// linear.
+template <class Rule, class T>
+NURBEAM_WITHIN AxialMeans<T> axial_means(const BeamProperties& beam, const AssumedStrainOf<T>& strain,
+                                         double free) {
+  if (std::holds_alternative<GreenLaw>(beam.law)) return linear_axial_means(beam.axial_stiffness, strain);
+  AxialMeans<T> sum{zero<T>(), zero<T>(), zero<T>(), zero<T>(), zero<T>(),
+                    zero<T>(), zero<T>(), zero<T>(), zero<T>(), zero<T>()};
+  for (int g = 0; g < Rule::size; ++g) {
+    const double xi = Rule::points[g], w = Rule::weights[g];
+    const double of_0 = 6 * xi * (1 - xi), of_a = (1 - xi) * (1 - 3 * xi), of_b = xi * (3 * xi - 2);
+    const AxialPoint<T> point = axial_point<T>(beam.law, beam.axial_stiffness, strain.at(xi), free);
+    sum.energy += w * point.energy;
+    sum.by_0 += w * of_0 * point.force;
+    sum.by_a += w * of_a * point.force;
+    sum.by_b += w * of_b * point.force;
+    sum.m00 += w * of_0 * of_0 * point.stiffness;
+    sum.m0a += w * of_0 * of_a * point.stiffness;
+    sum.m0b += w * of_0 * of_b * point.stiffness;
+    sum.maa += w * of_a * of_a * point.stiffness;
+    sum.mab += w * of_a * of_b * point.stiffness;
+    sum.mbb += w * of_b * of_b * point.stiffness;
+  }
+  return sum;
+}
+
+/// The means of the damping of these strain rates, which is that of Green's law for all laws.
+template <class T>
+NURBEAM_WITHIN AxialMeans<T> viscous_axial_means(const BeamProperties& beam, const AssumedStrainOf<T>& rate) {
+  return linear_axial_means(beam.damping * beam.axial_stiffness, rate);
+}
+
+/// The axial energy of an element, U = l times the mean of psi(eps_hat) [J], as a function of
+/// y = (I, eps_A, eps_B, l), with its gradient and Hessian. Of Green's law: EA l/2 (c0^2 + c1^2/3 + c2^2/5).
 class AssumedAxialEnergy {
  public:
   double value;
   Eigen::Vector4d gradient;  ///< the first: the axial force (mean, less the residue of bending) [N]
 
-  AssumedAxialEnergy(double EA, const Eigen::Vector4d& y) : EA_(EA), l_(y[3]), c_(y[0], y[1], y[2], y[3]) {
-    const double m = c_.c0, odd = c_.c1 * c_.c1 / 3, even = c_.c2 * c_.c2 / 5;
-    value = EA * l_ / 2 * (m * m + odd + even);
-    gradient << m - c_.c2 / 5, l_ * (c_.c2 / 10 - c_.c1 / 6), l_ * (c_.c2 / 10 + c_.c1 / 6),
-        (odd + even - m * m) / 2 + c_.c2 * m / 5;
-    gradient *= EA;
+  AssumedAxialEnergy(const AxialMeans<double>& means, const Eigen::Vector4d& y) : means_(means), y_(y) {
+    const double mean = y[0] / y[3];
+    value = y[3] * means.energy;
+    gradient << means.by_0, y[3] * means.by_a, y[3] * means.by_b, means.energy - mean * means.by_0;
   }
 
   Eigen::Matrix4d hessian() const {
-    const double l = l_, m = c_.c0;
-    const double by_a = c_.c2 / 10 - c_.c1 / 6 + m / 10, by_b = c_.c2 / 10 + c_.c1 / 6 + m / 10;
+    const double l = y_[3], mean = y_[0] / l;
+    const auto& m = means_;
+    const double by_I = -mean * m.m00 / l, by_a = m.by_a - mean * m.m0a, by_b = m.by_b - mean * m.m0b;
     Eigen::Matrix4d H;
-    H << 1.2 / l, -0.1, -0.1, -1.2 * m / l,  //
-        -0.1, l * 2 / 15, -l / 30, by_a,     //
-        -0.1, -l / 30, l * 2 / 15, by_b,     //
-        -1.2 * m / l, by_a, by_b, 1.2 * m * m / l;
-    return EA_ * H;
+    H << m.m00 / l, m.m0a, m.m0b, by_I,     //
+        m.m0a, l * m.maa, l * m.mab, by_a,  //
+        m.m0b, l * m.mab, l * m.mbb, by_b,  //
+        by_I, by_a, by_b, mean * mean * m.m00 / l;
+    return H;
   }
 
  private:
-  double EA_, l_;
-  AssumedStrain c_;
+  AxialMeans<double> means_;
+  Eigen::Vector4d y_;
 };
 
+/// That energy by a beam's law.
+template <class Rule>
+AssumedAxialEnergy assumed_axial_energy(const BeamProperties& beam, const Eigen::Vector4d& y, double free) {
+  return {axial_means<Rule>(beam, AssumedStrain(y[0], y[1], y[2], y[3]), free), y};
+}
+
 /// Kelvin-Voigt damping of the assumed strain with viscosity c EA: the generalised stress c H x' of
-/// x = (I, eps_A, eps_B), H the Hessian above, and its derivatives. Dissipated: x' . stress [W] >= 0.
+/// x = (I, eps_A, eps_B), H the Hessian of Green's law, and its derivatives. Dissipated: x' . stress [W] >=
+/// 0.
 struct AssumedAxialDamping {
   Eigen::Vector3d stress;
   Eigen::Matrix3d by_rate;
   Eigen::Vector3d by_length;
 
-  AssumedAxialDamping(double viscosity, double l, const Eigen::Vector3d& rate) {
-    by_rate << 1.2 / l, -0.1, -0.1, -0.1, l * 2 / 15, -l / 30, -0.1, -l / 30, l * 2 / 15;
-    by_rate *= viscosity;
-    stress = by_rate * rate;
-    by_length = viscosity * Eigen::Vector3d(-1.2 / (l * l) * rate[0], rate[1] * 2 / 15 - rate[2] / 30,
-                                            rate[2] * 2 / 15 - rate[1] / 30);
+  AssumedAxialDamping(const BeamProperties& beam, double l, const Eigen::Vector3d& rate) {
+    const AssumedAxialEnergy linear(viscous_axial_means(beam, AssumedStrain(rate[0], rate[1], rate[2], l)),
+                                    {rate[0], rate[1], rate[2], l});
+    const Eigen::Matrix4d H = linear.hessian();
+    stress = linear.gradient.head<3>();
+    by_rate = H.topLeftCorner<3, 3>();
+    by_length = H.topRightCorner<3, 1>();
   }
 };
 

@@ -1,6 +1,9 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "fem/material/axial_law.h"
 #include "fem/material/axial_strain.h"
 #include "fem/material/curvature_measure.h"
 #include "fem/material/free_strain.h"
@@ -57,12 +60,39 @@ struct BeamProperties {
   double tension_damping = 0;    ///< beta [s] of the stiffness that tension gives (BeamElement)
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
+  AxialLaw law = GreenLaw();
   std::optional<SectionStiffness> sections = {};  ///< of a beam with torsion, in space
   FreeStrain free_strain = {};                    ///< needs AxialStrain::ends_and_mean
 
   /// EA where it multiplies a pointwise strain; else 0.
   double pointwise_axial_stiffness() const {
     return axial_strain == AxialStrain::pointwise ? axial_stiffness : 0;
+  }
+  /// Axial force as drawn [N], of a beam whose free strain is what S_0 makes of it.
+  double drawn_tension() const { return -free_strain.of_tension * axial_stiffness; }
+  /// Gives the beam the axial force S_0 [N] as drawn.
+  void set_drawn_tension(double S_0) { free_strain.of_tension = -S_0 / axial_stiffness; }
+  /// Whether bending under a tension [N] reaches less far than a length [m]: sqrt(EI/tension) < length.
+  bool bends_within(double length, double tension) const {
+    return bending_stiffness < length * length * tension;
+  }
+  /// EA eps of a small strain [N]
+  double force_of_strain(double strain) const { return axial_stiffness * strain; }
+  /// EA eps^2/2 of a small strain [J/m].
+  double small_strain_energy(double strain) const { return axial_stiffness * strain * strain / 2; }
+  /// The least stiffness of bending about the section's axes [N m^2].
+  double least_bending_stiffness() const {
+    return sections ? std::min(sections->bending_1, sections->bending_2) : bending_stiffness;
+  }
+  /// The bend whose energy is this per length, in the direction that is softest; 0 where nothing resists it
+  /// [1/m].
+  double mean_bend(double energy_per_length) const {
+    const double stiffness = least_bending_stiffness();
+    return stiffness > 0 ? std::sqrt(2 * std::max(energy_per_length, 0.0) / stiffness) : 0;
+  }
+  /// Energy of bending a length [m] evenly by an angle [rad], in the direction that is softest [J].
+  double bent_energy(double angle, double length) const {
+    return least_bending_stiffness() * angle * angle / (2 * length);
   }
   bool is_damped() const { return damping > 0 || mass_damping > 0 || tension_damping > 0; }
   /// EI where the axis alone bends: in the plane, and round in space; 0 for a beam with torsion, whose
@@ -83,6 +113,12 @@ struct BeamProperties {
       own.spin_inertia *= stretch;
     }
     p.free_strain.constant = (stretch * stretch - 1) / 2;
+    return p;
+  }
+
+  BeamProperties without_bending() const {
+    BeamProperties p = *this;
+    p.bending_stiffness = 0;
     return p;
   }
 

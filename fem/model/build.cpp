@@ -42,13 +42,13 @@ std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& div
 void allow_kinks(BeamModel& model, int b) {
   constexpr double short_reach = 0.02;  // of an element
   Beam& beam = model.beams[b];
-  const double tension = -beam.properties.free_strain.of_tension * beam.properties.axial_stiffness;
+  const double tension = beam.properties.drawn_tension();
   const bool slides = std::any_of(model.joints.begin(), model.joints.end(),
                                   [b](const SlidingJoint& joint) { return joint.beam == b; });
   if (!(tension > 0) || slides || beam.has_torsion()) return;
   for (int h = 1; h < beam.home_intervals(); ++h) {
     const double l = std::min(beam.home[h].s - beam.home[h - 1].s, beam.home[h + 1].s - beam.home[h].s);
-    const bool is_string = beam.properties.bending_stiffness < std::pow(short_reach * l, 2) * tension;
+    const bool is_string = beam.properties.bends_within(short_reach * l, tension);
     if (beam.home[h].kept && is_string) beam.home[h].kind = NodeKind::hinge;
   }
 }

@@ -59,14 +59,10 @@ double bending_misfit(const MeshElement<D>& e, const ElementVector<D>& q) {
 template <int D>
 double elastic_curvature(const MeshElement<D>& e, const State& state, double length) {
   const BeamProperties& beam = e.element.properties();
-  double energy = e.element.energy(gather<D>(e, state), Eigen::Matrix<double, D, 1>::Zero()).bending,
-         stiffness = beam.bending_stiffness;
+  double energy = e.element.energy(gather<D>(e, state), Eigen::Matrix<double, D, 1>::Zero()).bending;
   if constexpr (D == 3)
-    if (e.twist && beam.sections) {
-      energy += e.twist->element.energy(gather_twist(e, state)).bending;
-      stiffness = std::min(beam.sections->bending_1, beam.sections->bending_2);
-    }
-  return stiffness > 0 ? std::sqrt(2 * std::max(energy, 0.0) / (stiffness * length)) : 0;
+    if (e.twist && beam.sections) energy += e.twist->element.energy(gather_twist(e, state)).bending;
+  return beam.mean_bend(energy / length);
 }
 
 // The couple as one number: in the plane about its normal; in space, where a beam without torsion carries
@@ -141,12 +137,11 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   const double drawn = e.element.curve().strain(s);
   const double strain =
       assumed ? drawn + assumed->carried((s - s_a) / (s_b - s_a)) : axial_strain<D>(p.rs).value;
-  const SectionForces elastic =
-      section_forces<D>(e.element.properties(), strain, p.rs, p.rss, p.kappa0, drawn, free_strain(e, state));
+  const SectionForces elastic = section_forces(e.element.properties(), strain, drawn, free_strain(e, state));
   const StressResultants resultants = carried.at(s, point.r, point.rs);
   SectionRecord record;
   record.strain = elastic.strain;
-  record.curvature = elastic.curvature;
+  record.curvature = curvature<D, Derivatives::one>(p.rs, p.rss, e.element.properties().curvature).value;
   record.axial_force = elastic.axial_force;
   record.bending_moment = bending_moment<D>(resultants.couple, point);
   record.shear_force = shear_force<D>(resultants.force, point.rs);

@@ -23,7 +23,7 @@ using Vector = Eigen::VectorXd;
 BeamModel without_round_bending(const BeamModel& model, int dimension) {
   BeamModel bare = model;
   for (Beam& beam : bare.beams)
-    if (dimension == 3 && !beam.properties.sections) beam.properties.bending_stiffness = 0;
+    if (dimension == 3 && !beam.properties.sections) beam.properties = beam.properties.without_bending();
   return bare;
 }
 

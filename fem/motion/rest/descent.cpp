@@ -34,7 +34,7 @@ double force_of_round_off(const MeshedState& at, int joint) {
   const BeamModel& model = at.system->model();
   const double elements = at.state.q.lpNorm<Eigen::Infinity>() / home_spacing(model, joint);
   return 8 * std::numeric_limits<double>::epsilon() *
-         model.beam_of(model.joints[joint]).properties.axial_stiffness * (1 + elements);
+         model.beam_of(model.joints[joint]).properties.force_of_strain(1 + elements);
 }
 
 // Towards where no force is needed to hold a body [m], by the secant of the last two places: what holds it

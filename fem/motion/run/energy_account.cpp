@@ -204,12 +204,8 @@ std::optional<double> EnergyAccount::from_nowhere(const BeamSystem& system, cons
 double slight_bending(const BeamModel& model) {
   constexpr double angle = 0.1;
   double energy = 0;
-  for (const Beam& beam : model.beams) {
-    const std::optional<SectionStiffness>& sections = beam.properties.sections;
-    const double stiffness =
-        sections ? std::min(sections->bending_1, sections->bending_2) : beam.properties.bending_stiffness;
-    if (!beam.rigid) energy += stiffness * angle * angle / (2 * beam.curve.length());
-  }
+  for (const Beam& beam : model.beams)
+    if (!beam.rigid) energy += beam.properties.bent_energy(angle, beam.curve.length());
   return energy;
 }
 
@@ -221,7 +217,7 @@ double energy_noise(const BeamModel& model) {
     double strain = round_off;
     for (const auto& [time, expansion] : beam.properties.free_strain.thermal)
       strain = std::max(strain, of_heat * std::abs(expansion));
-    noise += beam.properties.axial_stiffness * beam.curve.length() * strain * strain / 2;
+    noise += beam.properties.small_strain_energy(strain) * beam.curve.length();
   }
   for (const Body& body : model.bodies) noise += round_off * body.mass * model.gravity.norm() * longest;
   return noise;

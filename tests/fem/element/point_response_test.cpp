@@ -1,11 +1,9 @@
-#include "fem/material/strain.h"
+#include "fem/element/point_response.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <random>
-
-#include "fem/material/elastic.h"
 
 namespace nurbeam {
 namespace {

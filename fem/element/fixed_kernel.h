@@ -1,0 +1,418 @@
+#pragma once
+#include <array>
+#include <type_traits>
+
+#include "fem/element/fixed_lanes.h"
+#include "fem/element/point_strain.h"
+#include "fem/material/assumed_axial.h"
+#include "fem/material/point_law.h"
+#include "solver/system/second_order_system.h"
+
+namespace nurbeam {
+
+/// Numbers of points as one number of the element: the sum of those side by side, or the number itself.
+template <int n>
+double total(const SideBySide<n>& numbers) {
+  return numbers.sum();
+}
+template <class T>
+requires(!requires { T::SizeAtCompileTime; }) NURBEAM_WITHIN const T& total(const T& number) {
+  return number;
+}
+
+/// Force, energies, length and tangent of an element whose ends are fixed, written once for an element by
+/// itself (P: numbers at the Gauss points side by side, E: double) and for eight elements side by side (P and
+/// E: their numbers). docs/theory.md, form V with places at rest.
+///
+/// Nodes hold r_A, r_sA, r_B, r_sB by node and direction; `e`, `e_rate`: of q and v. `side`: 1 where
+/// tension_damping is held to be that of tension, else 0; null where the strain says so.
+template <int D, class P, class E>
+struct FixedKernel {
+  static constexpr int nodal = 4 * D;
+  using Nodes = std::array<std::array<E, D>, 4>;
+  using Tangents = std::array<std::array<E, nodal>, nodal>;  ///< by column and row
+  using Load = std::array<double, D>;
+
+  struct Energies {
+    E kinetic, axial, bending, external, dissipation;
+  };
+
+  const BeamProperties& beam;
+  const ElementSums<E>& sums;
+  const PointNumbers<P>* points;
+  int count;
+  double free_strain;
+  const E* side;
+  PointLaw law{beam};
+  bool material = beam.curvature == CurvatureMeasure::material;
+  bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
+  /// Whether strains of the axis carry at the points: not where sections bend and the axial strain is
+  /// assumed.
+  bool at_points = !beam.sections || !assumed;
+
+  NURBEAM_WITHIN Nodes force(const Nodes& e, const Nodes& e_rate, const Nodes& acceleration,
+                             const Load& load) const {
+    Nodes force = product(acceleration, sums.mass);
+    if (beam.mass_damping > 0) add(beam.mass_damping, product(e_rate, sums.mass), force);
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < D; ++d) force[k][d] -= load[d] * sums.load_factor[k];
+    if (at_points) add_point_forces(e, e_rate, force);
+    add_axial_forces(e, e_rate, force);
+    return force;
+  }
+
+  NURBEAM_WITHIN Energies energies(const Nodes& e, const Nodes& e_rate, const Load& load) const {
+    Energies sum{zero<E>(), zero<E>(), zero<E>(), zero<E>(), zero<E>()};
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < D; ++d) sum.external -= load[d] * (e[k][d] * sums.load_factor[k]);
+    sum.kinetic = sum_of_products(e_rate, product(e_rate, sums.mass)) / 2.;
+    sum.dissipation = 2 * beam.mass_damping * sum.kinetic;
+    if (at_points) add_point_energies(e, e_rate, sum);
+    add_axial_energies(e, e_rate, sum);
+    return sum;
+  }
+
+  /// Deformed [m].
+  NURBEAM_WITHIN E length(const Nodes& e) const {
+    E sum = zero<E>();
+    for (int i = 0; i < count; ++i) {
+      const Components<D, P> rs = combination(e, points[i].S1);
+      sum += total(P(points[i].weight * square_root(dot(rs, rs))));
+    }
+    return sum;
+  }
+
+  NURBEAM_WITHIN void tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
+                               Tangents& K) const {
+    const bool damped = beam.is_damped() && (w.damping != 0 || w.stiffness != 0);
+    const bool full = damped && w.stiffness != 0;  // damping has no symmetric stiffness
+    set_nodal(w.mass + (damped ? w.damping * beam.mass_damping : 0), full, K);
+    if (w.stiffness != 0 || damped) {
+      if (at_points) add_point_tangents(e, e_rate, w, full, K);
+      if (assumed || damped) add_axial_tangents(e, e_rate, w, full, K);
+    }
+    if (full) return;
+    for (int j = 0; j < nodal; ++j)
+      for (int i = 0; i < j; ++i) K[i][j] = K[j][i];
+  }
+
+  /// sum_k e_k S_k.
+  template <class N>
+  NURBEAM_WITHIN static Components<D, N> combination(const Nodes& e, const std::array<N, 4>& S) {
+    Components<D, N> sum;
+    for (int d = 0; d < D; ++d) sum[d] = e[0][d] * S[0] + e[1][d] * S[1] + e[2][d] * S[2] + e[3][d] * S[3];
+    return sum;
+  }
+
+  /// sum_l e_l M_lk for the columns of a symmetric M.
+  NURBEAM_WITHIN static Nodes product(const Nodes& e, const std::array<std::array<E, 4>, 4>& M) {
+    Nodes product;
+    for (int k = 0; k < 4; ++k) product[k] = combination(e, M[k]);
+    return product;
+  }
+
+  NURBEAM_WITHIN static E sum_of_products(const Nodes& a, const Nodes& b) {
+    E sum = dot(a[0], b[0]);
+    for (int k = 1; k < 4; ++k) sum += dot(a[k], b[k]);
+    return sum;
+  }
+
+  template <class Factor>
+  NURBEAM_WITHIN static void add(const Factor& factor, const Nodes& term, Nodes& sum) {
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < D; ++d) sum[k][d] += factor * term[k][d];
+  }
+
+  /// I = (tr(e G e') - l)/2 - int eps_0 ds less the free strain, and dI/de = e G, with positions counted from
+  /// the start, which G does not see: far from the origin they would leave their round-off.
+  struct Stretch {
+    Nodes by_e;
+    E integral;
+  };
+  NURBEAM_WITHIN static Nodes from_start(const Nodes& e) {
+    Nodes from_start = e;
+    for (int d = 0; d < D; ++d) {
+      from_start[0][d] = zero<E>();
+      from_start[2][d] -= e[0][d];
+    }
+    return from_start;
+  }
+  NURBEAM_WITHIN Stretch stretch(const Nodes& e) const {
+    const Nodes from = from_start(e);
+    Stretch stretch{product(from, sums.stretch), zero<E>()};
+    for (int k = 1; k < 4; ++k) stretch.integral += dot(from[k], stretch.by_e[k]);
+    stretch.integral = (stretch.integral - sums.length) / 2. - sums.strain0[0] - free_strain * sums.length;
+    return stretch;
+  }
+  /// The strain at the nodal slope of an end, 1 or 3, less the free one.
+  NURBEAM_WITHIN E end_strain(const Nodes& e, int slope) const {
+    return green_strain<D>(e[slope]) - sums.strain0[(slope + 1) / 2] - free_strain;
+  }
+  NURBEAM_WITHIN AssumedStrainOf<E> assumed_strain(const Nodes& e, const E& I) const {
+    return {I, end_strain(e, 1), end_strain(e, 3), sums.length};
+  }
+
+ private:
+  NURBEAM_WITHIN void add_point_forces(const Nodes& e, const Nodes& e_rate, Nodes& force) const {
+    for (int i = 0; i < count; ++i) {
+      const PointNumbers<P>& p = points[i];
+      const Components<D, P> rs = combination(e, p.S1), rss = combination(e, p.S2);
+      const Curvature<D, P> K(rs, rss, material);
+      P moment = law.moment(P(K.value - p.kappa0)), stretching = zero<P>();
+      if (law.stretches()) stretching = law.axial(P(green_strain<D>(rs) - p.eps0)).force;
+      if (law.is_damped()) {
+        const Components<D, P> rs_rate = combination(e_rate, p.S1);
+        moment += law.viscous_moment(K.rate(rs_rate, combination(e_rate, p.S2)));
+        if (law.stretches()) stretching += law.viscous_force(dot(rs, rs_rate));
+      }
+      moment *= p.weight;
+      stretching *= p.weight;
+      for (int d = 0; d < D; ++d) {
+        const P on_rs = moment * K.by_rs[d] + stretching * rs[d], on_rss = moment * K.by_rss[d];
+        for (int k = 0; k < 4; ++k) force[k][d] += total(P(on_rs * p.S1[k] + on_rss * p.S2[k]));
+      }
+    }
+  }
+
+  /// The assumed axial strain, its damping and that of the tension.
+  NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, Nodes& force) const {
+    if (!assumed && !(beam.tension_damping > 0)) return;
+    const auto [I_e, I] = stretch(e);
+    if (beam.tension_damping > 0) add(tension_damping(I).value, product(e_rate, sums.stretch), force);
+    if (!assumed) return;
+    const AxialMeans<E> means = axial_means<GaussRule>(beam, assumed_strain(e, I), free_strain);
+    E on_I = means.by_0, on_a = sums.length * means.by_a, on_b = sums.length * means.by_b;
+    if (law.is_damped()) {
+      const AxialMeans<E> damping = axial_damping(axial_rates(e, e_rate, I_e));
+      on_I += damping.by_0;
+      on_a += sums.length * damping.by_a;
+      on_b += sums.length * damping.by_b;
+    }
+    add(on_I, I_e, force);
+    for (int d = 0; d < D; ++d) {
+      force[1][d] += on_a * e[1][d];
+      force[3][d] += on_b * e[3][d];
+    }
+  }
+
+  NURBEAM_WITHIN void add_point_energies(const Nodes& e, const Nodes& e_rate, Energies& sum) const {
+    for (int i = 0; i < count; ++i) {
+      const PointNumbers<P>& p = points[i];
+      const Components<D, P> rs = combination(e, p.S1), rss = combination(e, p.S2);
+      const Curvature<D, P> K(rs, rss, material);
+      const P bent = K.value - p.kappa0;
+      P square = bent * bent;
+      if constexpr (D == 3) square -= curvature_rounding * curvature_rounding * is_zero(p.kappa0);
+      sum.bending += total(P(law.bending_energy(P(p.weight * square))));
+      if (law.stretches())
+        sum.axial += total(P(p.weight * law.axial(P(green_strain<D>(rs) - p.eps0)).energy));
+      if (!law.is_damped()) continue;
+      const Components<D, P> rs_rate = combination(e_rate, p.S1);
+      const P bending = K.rate(rs_rate, combination(e_rate, p.S2)), stretching = dot(rs, rs_rate);
+      P power = law.viscous_moment(bending) * bending;
+      if (law.stretches()) power += law.viscous_force(stretching) * stretching;
+      sum.dissipation += total(P(p.weight * power));
+    }
+  }
+
+  NURBEAM_WITHIN void add_axial_energies(const Nodes& e, const Nodes& e_rate, Energies& sum) const {
+    if (!assumed && !(beam.tension_damping > 0)) return;
+    const auto [I_e, I] = stretch(e);
+    if (beam.tension_damping > 0)
+      sum.dissipation += tension_damping(I).value * sum_of_products(e_rate, product(e_rate, sums.stretch));
+    if (!assumed) return;
+    sum.axial += sums.length * axial_means<GaussRule>(beam, assumed_strain(e, I), free_strain).energy;
+    if (!law.is_damped()) return;
+    const AxialRates rates = axial_rates(e, e_rate, I_e);
+    const AxialMeans<E> damping = axial_damping(rates);
+    sum.dissipation +=
+        damping.by_0 * rates.I + sums.length * (damping.by_a * rates.a + damping.by_b * rates.b);
+  }
+
+  /// Rates of I, eps_A and eps_B.
+  struct AxialRates {
+    E I, a, b;
+  };
+  NURBEAM_WITHIN AxialRates axial_rates(const Nodes& e, const Nodes& e_rate, const Nodes& I_e) const {
+    return {sum_of_products(I_e, e_rate), dot(e[1], e_rate[1]), dot(e[3], e_rate[3])};
+  }
+  NURBEAM_WITHIN AxialMeans<E> axial_damping(const AxialRates& rates) const {
+    return viscous_axial_means(beam, AssumedStrainOf<E>(rates.I, rates.a, rates.b, sums.length));
+  }
+  NURBEAM_WITHIN TensionDamping<E> tension_damping(const E& I) const {
+    const E strain = I / sums.length;
+    return {beam, strain, free_strain, side ? *side : E(1. - is_zero(positive(strain)))};
+  }
+
+  NURBEAM_WITHIN void set_nodal(double factor, bool full, Tangents& K) const {
+    for (int k = 0; k < 4; ++k)
+      for (int m = 0; m <= (full ? 3 : k); ++m)
+        for (int b = 0; b < D; ++b)
+          for (int a = 0; a < D; ++a)
+            K[k * D + b][m * D + a] = a == b ? E(factor * sums.mass[k][m]) : zero<E>();
+  }
+
+  /// By z = (r_s, r_ss) at a point: w.stiffness of d(stress)/dz + w.damping of d(stress)/dz'.
+  NURBEAM_WITHIN PairMatrix<D, P> point_tangent(const Components<D, P>& rs, const Components<D, P>& rss,
+                                                const Nodes& e_rate, const PointNumbers<P>& p,
+                                                const TangentWeights& w) const {
+    const CurvatureDerivatives<D, P> K(rs, rss, material);
+    const bool damped = law.is_damped();
+    P unit = (w.stiffness * law.bending_stiffness() + (damped ? w.damping * law.viscous_moment(1.) : 0.)) *
+             p.weight;
+    P moment = w.stiffness * law.moment(P(K.value - p.kappa0));
+    std::array<P, 2 * D> z_rate;
+    if (damped) {
+      const Components<D, P> rs_rate = combination(e_rate, p.S1), rss_rate = combination(e_rate, p.S2);
+      for (int d = 0; d < D; ++d) {
+        z_rate[d] = rs_rate[d];
+        z_rate[D + d] = rss_rate[d];
+      }
+      moment += w.stiffness * law.viscous_moment(P(dot(K.gradient, z_rate)));
+    }
+    moment *= p.weight;
+    PairMatrix<D, P> H;
+    for (int a = 0; a < 2 * D; ++a)
+      for (int b = 0; b < 2 * D; ++b)
+        H[a][b] = unit * K.gradient[a] * K.gradient[b] + moment * K.hessian[a][b];
+    if (damped) {
+      const P viscosity = w.stiffness * law.viscous_moment(1.) * p.weight;
+      const std::array<P, 2 * D> by_z = K.product(z_rate);
+      for (int a = 0; a < 2 * D; ++a)
+        for (int b = 0; b < 2 * D; ++b) H[a][b] += viscosity * K.gradient[a] * by_z[b];
+    }
+    if (law.stretches()) add_pointwise_axial(rs, z_rate, p, w, H);
+    return H;
+  }
+
+  NURBEAM_WITHIN void add_pointwise_axial(const Components<D, P>& rs, const std::array<P, 2 * D>& z_rate,
+                                          const PointNumbers<P>& p, const TangentWeights& w,
+                                          PairMatrix<D, P>& H) const {
+    const AxialPoint<P> point = law.axial(P(green_strain<D>(rs) - p.eps0));
+    P force = w.stiffness * point.force, stiffness = w.stiffness * point.stiffness;
+    if (law.is_damped()) {
+      P rate = rs[0] * z_rate[0];
+      for (int d = 1; d < D; ++d) rate += rs[d] * z_rate[d];
+      force += w.stiffness * law.viscous_force(rate);
+      stiffness = stiffness + w.damping * law.viscous_force(1.);
+      for (int a = 0; a < D; ++a)
+        for (int b = 0; b < D; ++b)
+          H[a][b] += w.stiffness * law.viscous_force(1.) * (p.weight * rs[a] * z_rate[b]);
+    }
+    force *= p.weight;
+    stiffness *= p.weight;
+    for (int a = 0; a < D; ++a) {
+      H[a][a] += force;
+      for (int b = 0; b < D; ++b) H[a][b] += stiffness * rs[a] * rs[b];
+    }
+  }
+
+  /// The blocks above the diagonal alone, unless `full`.
+  NURBEAM_WITHIN void add_point_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
+                                         bool full, Tangents& K) const {
+    for (int i = 0; i < count; ++i) {
+      const PointNumbers<P>& p = points[i];
+      const PairMatrix<D, P> H = point_tangent(combination(e, p.S1), combination(e, p.S2), e_rate, p, w);
+      for (int k = 0; k < 4; ++k)
+        for (int b = 0; b < D; ++b) {
+          std::array<P, 2 * D> by;
+          for (int a = 0; a < 2 * D; ++a) by[a] = p.S1[k] * H[a][b] + p.S2[k] * H[a][D + b];
+          for (int l = 0; l <= (full ? 3 : k); ++l)
+            for (int a = 0; a < D; ++a)
+              K[k * D + b][l * D + a] += total(P(p.S1[l] * by[a] + p.S2[l] * by[D + a]));
+        }
+    }
+  }
+
+  /// Stresses on x = (I, eps_A, eps_B) and their derivatives by x, weighted; by the rates alone where damped.
+  struct AxialTangent {
+    E on_I, on_a, on_b;
+    E II, Ia, Ib, aa, ab, bb;
+
+    NURBEAM_WITHIN std::array<E, 3> product(const E& I, const E& a, const E& b) const {
+      return {II * I + Ia * a + Ib * b, Ia * I + aa * a + ab * b, Ib * I + ab * a + bb * b};
+    }
+  };
+  NURBEAM_WITHIN static AxialTangent of_means(const AxialMeans<E>& m, const E& l, double stress,
+                                              double slope) {
+    return {stress * m.by_0, stress * l * m.by_a, stress * l * m.by_b, slope * m.m00 / l, slope * m.m0a,
+            slope * m.m0b,   slope * l * m.maa,   slope * l * m.mab,   slope * l * m.mbb};
+  }
+
+  /// With x = (I, eps_A, eps_B) and its rate x' = x_q v: x_qq and d(x')/dq are G and ones.
+  NURBEAM_WITHIN void add_axial_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
+                                         bool full, Tangents& K) const {
+    const auto [I_e, I] = stretch(e);
+    if (beam.tension_damping > 0) add_tension_tangents(e_rate, I_e, tension_damping(I), w, full, K);
+    if (!assumed) return;
+    const E& l = sums.length;
+    AxialTangent by_x = of_means(axial_means<GaussRule>(beam, assumed_strain(e, I), free_strain), l,
+                                 w.stiffness, w.stiffness);
+    if (!law.is_damped()) return add_axial_products(e, I_e, by_x, nullptr, nullptr, full, K);
+    const AxialMeans<E> damping = axial_damping(axial_rates(e, e_rate, I_e));
+    const AxialTangent rated = of_means(damping, l, w.stiffness, w.damping),
+                       by_rate = of_means(damping, l, w.stiffness, w.stiffness);
+    by_x.on_I += rated.on_I;
+    by_x.on_a += rated.on_a;
+    by_x.on_b += rated.on_b;
+    by_x.II += rated.II;
+    by_x.Ia += rated.Ia;
+    by_x.Ib += rated.Ib;
+    by_x.aa += rated.aa;
+    by_x.ab += rated.ab;
+    by_x.bb += rated.bb;
+    add_axial_products(e, I_e, by_x, &e_rate, &by_rate, full, K);
+  }
+
+  /// A slope where k is its node, else 0.
+  NURBEAM_WITHIN static E slope(const Nodes& nodes, int k, int of, int b) {
+    return k == of ? nodes[of][b] : zero<E>();
+  }
+
+  NURBEAM_WITHIN void add_axial_products(const Nodes& e, const Nodes& I_e, const AxialTangent& by_x,
+                                         const Nodes* e_rate, const AxialTangent* by_rate, bool full,
+                                         Tangents& K) const {
+    for (int k = 0; k < 4; ++k)
+      for (int m = 0; m <= (full ? 3 : k); ++m)
+        for (int d = 0; d < D; ++d) K[k * D + d][m * D + d] += by_x.on_I * sums.stretch[k][m];
+    for (int d = 0; d < D; ++d) {
+      K[D + d][D + d] += by_x.on_a;
+      K[3 * D + d][3 * D + d] += by_x.on_b;
+    }
+    Nodes I_rate;
+    if (e_rate) I_rate = product(*e_rate, sums.stretch);
+    for (int k = 0; k < 4; ++k)
+      for (int b = 0; b < D; ++b) {
+        std::array<E, 3> stress = by_x.product(I_e[k][b], slope(e, k, 1, b), slope(e, k, 3, b));
+        if (e_rate) {
+          const std::array<E, 3> more =
+              by_rate->product(I_rate[k][b], slope(*e_rate, k, 1, b), slope(*e_rate, k, 3, b));
+          for (int i = 0; i < 3; ++i) stress[i] += more[i];
+        }
+        for (int m = 0; m <= (full ? 3 : k); ++m)
+          for (int a = 0; a < D; ++a) {
+            E& entry = K[k * D + b][m * D + a];
+            entry += I_e[m][a] * stress[0];
+            if (m == 1) entry += e[1][a] * stress[1];
+            if (m == 3) entry += e[3][a] * stress[2];
+          }
+      }
+  }
+
+  NURBEAM_WITHIN void add_tension_tangents(const Nodes& e_rate, const Nodes& I_e,
+                                           const TensionDamping<E>& eta, const TangentWeights& w, bool full,
+                                           Tangents& K) const {
+    for (int k = 0; k < 4; ++k)
+      for (int m = 0; m <= (full ? 3 : k); ++m)
+        for (int d = 0; d < D; ++d) K[k * D + d][m * D + d] += w.damping * eta.value * sums.stretch[k][m];
+    if (!full) return;
+    const Nodes force = product(e_rate, sums.stretch);
+    const E by_strain = w.stiffness * eta.by_strain / sums.length;
+    for (int k = 0; k < 4; ++k)
+      for (int b = 0; b < D; ++b)
+        for (int m = 0; m < 4; ++m)
+          for (int a = 0; a < D; ++a) K[k * D + b][m * D + a] += by_strain * I_e[k][b] * force[m][a];
+  }
+};
+
+}  // namespace nurbeam

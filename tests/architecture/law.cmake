@@ -1,0 +1,22 @@
+# cmake -DROOT=<source tree> -P law.cmake: fails where EA or EI is read in fem outside fem/material. The constitutive law
+# is written there alone: elsewhere a strain is given to it, and a force, an energy or a stiffness comes back.
+
+cmake_minimum_required(VERSION 3.25)
+set(complaints 0)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/fem/*.h ${ROOT}/fem/*.cpp)
+list(FILTER files EXCLUDE REGEX "^fem/material/")
+foreach(file IN LISTS files)
+  file(STRINGS ${ROOT}/${file} lines REGEX "[^a-z_](axial|bending)_stiffness[^a-z_(]")
+  foreach(line IN LISTS lines)
+    string(STRIP "${line}" line)
+    message("${file} reads a stiffness: ${line}")
+    math(EXPR complaints "${complaints} + 1")
+  endforeach()
+endforeach()
+if(NOT files)
+  message(FATAL_ERROR "no source found under ${ROOT}/fem")
+endif()
+if(complaints)
+  message(FATAL_ERROR "${complaints} lines read a stiffness outside fem/material")
+endif()
+message(STATUS "the law stands in fem/material alone")
