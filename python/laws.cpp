@@ -184,7 +184,7 @@ class PythonMotion {
   std::string path_;     // in the case
 };
 
-PlaceMotion place_motion(const PythonMotion<1>& motion, const SlidingJoint& joint, double length) {
+PlaceMotion place_motion(const PythonMotion<1>& motion, const Rider& joint, double length) {
   const double start = motion.at(0).value[0];
   if (std::abs(start - joint.s) > 1e-9 * length)
     raise_error(PyExc_ValueError, motion.path() + ".motion: is at s = " + text_of(start) +
@@ -236,8 +236,8 @@ BeamModel with_laws(const BuiltModel& built, const Functions& functions, const C
       throw std::invalid_argument(law.path + ".motion_law: there is no function " +
                                   std::to_string(law.function) + "; give the function itself as the motion");
     const py::function& function = motions[law.function];
-    if (law.joint >= 0) {
-      SlidingJoint& joint = model.joints[law.joint];
+    if (law.rider >= 0) {
+      Rider& joint = model.riders[law.rider];
       joint.motion = place_motion({function, law.path}, joint, model.beam_of(joint).curve.length());
     } else {
       auto& support = std::get<Support>(model.constraints[law.constraint]);

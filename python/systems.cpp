@@ -68,9 +68,9 @@ void name_number(std::vector<std::string>& names, int at, const std::string& nam
 }
 
 // "trolley.s", or "trolley.cable.s" of a body that slides on several beams.
-std::string place_name(const BeamModel& model, const SlidingJoint& joint) {
+std::string place_name(const BeamModel& model, const Rider& joint) {
   const std::string& body = model.bodies[joint.body].name;
-  const bool on_others = std::ranges::count(model.joints, joint.body, &SlidingJoint::body) > 1;
+  const bool on_others = std::ranges::count(model.riders, joint.body, &Rider::body) > 1;
   return on_others ? body + "." + model.beam_of(joint).name + ".s" : body + ".s";
 }
 
@@ -99,8 +99,8 @@ std::vector<std::string> coordinate_names(const Equations& e) {
   }
   for (int i = 0; i < static_cast<int>(mesh.bodies.size()); ++i)
     name_vector(names, mesh.bodies[i], D, model.bodies[i].name);
-  for (int j = 0; j < static_cast<int>(mesh.joints.size()); ++j)
-    name_number(names, mesh.joints[j].place, place_name(model, model.joints[j]));
+  for (int j = 0; j < static_cast<int>(mesh.riders.size()); ++j)
+    name_number(names, mesh.riders[j].place, place_name(model, model.riders[j]));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i].empty()) names[i] = "coordinate[" + std::to_string(i) + "]";
   return names;

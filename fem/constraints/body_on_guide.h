@@ -12,12 +12,12 @@ namespace nurbeam {
 template <int D>
 class BodyOnGuide {
  public:
-  BodyOnGuide(const MeshedBeams<D>& at, int joint)
-      : curve_(&at.structure.beam_of(at.structure.joints[joint]).curve),
-        segment_(curve_->segment_at(at.mesh.plan.places[joint])) {
-    const int r = at.mesh.bodies[at.structure.joints[joint].body];
+  BodyOnGuide(const MeshedBeams<D>& at, int rider)
+      : curve_(&at.structure.beam_of(at.structure.riders[rider]).curve),
+        segment_(curve_->segment_at(at.mesh.plan.places[rider])) {
+    const int r = at.mesh.bodies[at.structure.riders[rider].body];
     for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
-    dofs_.push_back(at.mesh.joints[joint].place);
+    dofs_.push_back(at.mesh.riders[rider].place);
   }
 
   static constexpr int rows = D;

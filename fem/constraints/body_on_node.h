@@ -11,9 +11,9 @@ namespace nurbeam {
 template <int D>
 class BodyOnNode {
  public:
-  BodyOnNode(const MeshedBeams<D>& at, int joint) {
-    const SlidingJoint& sliding = at.structure.joints[joint];
-    const int node = at.mesh.nodes[sliding.beam][at.mesh.joints[joint].node].r;
+  BodyOnNode(const MeshedBeams<D>& at, int rider) {
+    const Rider& sliding = at.structure.riders[rider];
+    const int node = at.mesh.nodes[sliding.beam][at.mesh.riders[rider].node].r;
     for (const int first : {node, at.mesh.bodies[sliding.body]})
       for (int d = 0; d < D; ++d) dofs_.push_back(first + d);
   }

@@ -12,14 +12,14 @@ namespace nurbeam {
 template <int D>
 class BodyOnPoint {
  public:
-  BodyOnPoint(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int joint)
-      : element_(find_span(at.structure, at.mesh, drawn, at.structure.joints[joint].beam,
-                           at.mesh.plan.places[joint])) {
+  BodyOnPoint(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int rider)
+      : element_(find_span(at.structure, at.mesh, drawn, at.structure.riders[rider].beam,
+                           at.mesh.plan.places[rider])) {
     const auto& dofs = at.elements[element_].dofs;
     dofs_.assign(dofs.begin(), dofs.end());
-    const int r = at.mesh.bodies[at.structure.joints[joint].body];
+    const int r = at.mesh.bodies[at.structure.riders[rider].body];
     for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
-    dofs_.push_back(at.mesh.joints[joint].place);
+    dofs_.push_back(at.mesh.riders[rider].place);
   }
 
   static constexpr int rows = D;

@@ -14,16 +14,16 @@ namespace nurbeam {
 template <class Section>
 class BodyOnSection {
  public:
-  BodyOnSection(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int joint)
-      : section_(at, drawn, joint) {
-    const SlidingJoint& of = at.structure.joints[joint];
+  BodyOnSection(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int rider)
+      : section_(at, drawn, rider) {
+    const Rider& of = at.structure.riders[rider];
     arm_ << of.offset, 0;
     body_ = at.mesh.bodies[of.body];
     if constexpr (on_point) {
-      point_.emplace(at, drawn, joint);
+      point_.emplace(at, drawn, rider);
       dofs_ = point_->dofs();
     } else {
-      const int r = at.mesh.nodes[of.beam][at.mesh.joints[joint].node].r;
+      const int r = at.mesh.nodes[of.beam][at.mesh.riders[rider].node].r;
       dofs_ = {r, r + 1, r + 2, body_, body_ + 1, body_ + 2};
     }
     for (int i = 0; i < Section::size; ++i) {

@@ -3,11 +3,12 @@
 #include <variant>
 
 #include "fem/constraints/corner_angle.h"
+#include "fem/constraints/held_position_of_body.h"
 #include "fem/constraints/joined_points.h"
 #include "fem/constraints/joined_slopes.h"
-#include "fem/constraints/joint_ties.h"
 #include "fem/constraints/kept_contact.h"
 #include "fem/constraints/kept_length.h"
+#include "fem/constraints/rider_ties.h"
 #include "fem/constraints/support.h"
 #include "fem/structure/type_list.h"
 
@@ -29,7 +30,7 @@ template <int D, class... Others>
 using ConstraintList =
     std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
                  BodyOnGuide<D>, BodyOnNode<D>, KeptContact<D>, JoinedPoints<D>, JoinedSlopes<D>,
-                 CornerAngle<D>, KeptLength<D>, Others...>;
+                 CornerAngle<D>, KeptLength<D>, HeldPositionOfBody<D>, Others...>;
 template <int D>
 using BoundConstraint =
     std::conditional_t<D == 3,
@@ -41,6 +42,6 @@ using BoundConstraint =
 /// descriptions: each offers bind(binding, add), and `moves` where its constraints do over the mesh. As
 /// restart points know multipliers by their rows, a new one comes last.
 template <int D>
-using ConstraintSources = TypeList<JointTies<D>, KeptContact<D>, CornerAngle<D>, KeptLength<D>>;
+using ConstraintSources = TypeList<RiderTies<D>, KeptContact<D>, CornerAngle<D>, KeptLength<D>>;
 
 }  // namespace nurbeam

@@ -9,8 +9,8 @@ class FollowedNode {
  public:
   static constexpr int size = 4;
 
-  FollowedNode(const MeshedBeams<3>& at, const Eigen::VectorXd&, int joint)
-      : node_(at.elements[at.mesh.first_span[at.structure.joints[joint].beam] + at.mesh.joints[joint].node],
+  FollowedNode(const MeshedBeams<3>& at, const Eigen::VectorXd&, int rider)
+      : node_(at.elements[at.mesh.first_span[at.structure.riders[rider].beam] + at.mesh.riders[rider].node],
               0) {}
 
   const std::array<int, size>& dofs() const { return node_.dofs; }
@@ -30,12 +30,12 @@ class FollowedPoint {
   static constexpr int size = PlacedSection::size;
   using Coordinates = PlacedSection::Coordinates<double>;
 
-  FollowedPoint(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int joint)
-      : element_(find_span(at.structure, at.mesh, drawn, at.structure.joints[joint].beam,
-                           at.mesh.plan.places[joint])) {
+  FollowedPoint(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int rider)
+      : element_(find_span(at.structure, at.mesh, drawn, at.structure.riders[rider].beam,
+                           at.mesh.plan.places[rider])) {
     const auto& dofs = at.elements[element_].twist->dofs;
     std::copy(dofs.begin(), dofs.end(), dofs_.begin());
-    dofs_[size - 1] = at.mesh.joints[joint].place;
+    dofs_[size - 1] = at.mesh.riders[rider].place;
   }
 
   int element() const { return element_; }

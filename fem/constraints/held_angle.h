@@ -5,12 +5,12 @@
 
 namespace nurbeam {
 
-/// The angle between the slopes of two beams at a rigid joint, or of one beam before and after a corner, held
+/// The angle between the slopes of two beams at a rigid rider, or of one beam before and after a corner, held
 /// at that of the drawing, as the constraint g(a, b) = 0 of both slopes a = r_s and b = r_s there.
 ///
 /// In the plane g = cos(theta0) a x b - sin(theta0) a . b = |a| |b| sin(theta - theta0), bilinear and regular
 /// for every angle. In space g = a . b - cos(theta0) |a| |b|: as beams have no torsion, each may turn about
-/// the other; its gradient vanishes where the slopes are parallel, for which there is no such joint or
+/// the other; its gradient vanishes where the slopes are parallel, for which there is no such rider or
 /// corner.
 template <int D>
 class HeldAngle {

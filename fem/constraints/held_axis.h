@@ -37,7 +37,7 @@ class HeldAxis {
       for (int j = 0; j < n; ++j) terms.hessian(i, j) = g[i].d[j];
     return terms;
   }
-  /// On the section of a support, on the other one of a joint [N m], for its multipliers.
+  /// On the section of a support, on the other one of a rider [N m], for its multipliers.
   Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
                          const Eigen::Ref<const Eigen::VectorXd>& y) const {
     const Vector8<double> x = coordinates(state.q);

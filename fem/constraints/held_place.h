@@ -6,7 +6,7 @@
 
 namespace nurbeam {
 
-/// The place of a sliding joint is a given one, s = s(t): 1 row.
+/// The place of a rider is a given one, s = s(t): 1 row.
 template <int D>
 class HeldPlace {
  public:

@@ -4,7 +4,7 @@
 
 namespace nurbeam {
 
-/// Two sections keep the relative orientation that they have in the drawing: of two beams at a rigid joint,
+/// Two sections keep the relative orientation that they have in the drawing: of two beams at a rigid rider,
 /// or of one before and after a corner. 3 rows; coordinates (r_s, angle) of both.
 ///
 /// g = sum_i a_i x b_i/2 = 0 with the triad a_i of the one and b_i = sum_j C0_ij d_j that of the other as it

@@ -10,8 +10,8 @@ namespace nurbeam {
 /// does not.
 class PassedRoll {
  public:
-  PassedRoll(const MeshedBeams<3>& at, int joint)
-      : PassedRoll(sides(at, at.structure.joints[joint].beam, at.mesh.joints[joint].node)) {}
+  PassedRoll(const MeshedBeams<3>& at, int rider)
+      : PassedRoll(sides(at, at.structure.riders[rider].beam, at.mesh.riders[rider].node)) {}
 
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return dofs_; }

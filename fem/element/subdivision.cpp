@@ -56,14 +56,14 @@ std::pair<RancfElement, RancfElement> split(const RancfElement& element, double 
       0, a2, 2 * b * a, b2,                    //
       0, 0, a, b,                              //
       0, 0, 0, 1;
-  const Eigen::RowVector4d joint((a3 * w0 + 3 * b * a2 * w1) / c, l * b * a2 * w0 / c,
+  const Eigen::RowVector4d rider((a3 * w0 + 3 * b * a2 * w1) / c, l * b * a2 * w0 / c,
                                  (3 * b2 * a * w2 + b3 * w3) / c, -b2 * a * l * w3 / c);
   nodes1 << 1, 0, 0, 0,     //
       0, l / l1 * b, 0, 0,  //
-      joint,                //
+      rider,                //
       3 * b * a / l1 * (A * w0 + B * w1) / cc, l * b * a / l1 * B * w0 / cc,
       3 * b2 / l1 * (C * w2 + D * w3) / cc, -l * b2 / l1 * C * w3 / cc;
-  nodes2 << joint,  //
+  nodes2 << rider,  //
       3 * a2 / l2 * (A * w0 + B * w1) / cc, l * a2 / l2 * B * w0 / cc,
       3 * b * a / l2 * (C * w2 + D * w3) / cc, -l * b * a / l2 * C * w3 / cc,  //
       0, 0, 1, 0,                                                              //

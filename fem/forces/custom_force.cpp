@@ -43,7 +43,7 @@ BoundCustomForce<D>::BoundCustomForce(const CustomForce& force, const MeshedBeam
     : force_(&force) {
   if (!force.law) throw std::invalid_argument("a custom force needs a law");
   std::set<int> dofs;
-  for (const CustomForce::Attachment& point : force.points) {
+  for (const Grip& point : force.points) {
     if (point.body >= 0) {
       for (int d = 0; d < D; ++d) dofs.insert(at.mesh.bodies[point.body] + d);
       continue;
@@ -72,7 +72,7 @@ typename BoundCustomForce<D>::Points BoundCustomForce<D>::points(const MeshedBea
   all.gradient = all.rate_gradient = Eigen::MatrixXd::Zero(3 * n, columns);
   all.curved.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const CustomForce::Attachment& point = force_->points[i];
+    const Grip& point = force_->points[i];
     if (point.body >= 0) {
       const int r = at.mesh.bodies[point.body];
       all.r.col(i).template head<D>() = state.q.segment<D>(r);

@@ -6,7 +6,7 @@
 
 #include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
-#include "fem/structure/attachment.h"
+#include "fem/structure/grip.h"
 
 namespace nurbeam {
 
@@ -21,7 +21,6 @@ class BoundCustomForce;
 struct CustomForce {
   template <int D>
   using Bound = BoundCustomForce<D>;
-  using Attachment = nurbeam::Attachment;
   struct Response {
     Eigen::Matrix3Xd force;       ///< (3 x points) [N]
     Eigen::MatrixXd by_position;  ///< (3 points x 3 points) [N/m]; empty: taken by central differences
@@ -34,7 +33,7 @@ struct CustomForce {
   /// A law knows of no factor of the loads: it is there as connectors are.
   static constexpr bool permanent = true;
 
-  std::vector<Attachment> points;
+  std::vector<Grip> points;
   Law law;
 };
 

@@ -22,7 +22,7 @@
 /// add_tangent(at, state, weights, sink), which hands matrices to sink.element(index, K) or, in its own
 /// dofs(), to sink.own(K); per_length(beam, t), which the elements carry; add_energy(at, state, sum);
 /// momentum(state); add_momentum_of(velocity, p), where it is at a place s() of a beam(); spin(at, state), of
-/// the roll of the body of a joint(), with add_momentum; work(at, from, to), but for weight, between two
+/// the roll of the body of a rider(), with add_momentum; work(at, from, to), but for weight, between two
 /// states on one mesh [J]; loss(at, from, to), of energy between them [J], where it is no rate in add_energy;
 /// commit(at, state, memory), its part of State::memory after a step; add_actions(at, state, actions), what
 /// it does to points of beams; on_body(at, body, state), what it gives to a body [N]; on_element(e, state),

@@ -8,14 +8,14 @@ namespace {
 
 constexpr int of_friction = 3;
 
-int first_of_joint(const Structure& structure, std::size_t joint) {
+int first_of_rider(const Structure& structure, std::size_t rider) {
   return of_friction * static_cast<int>(std::count_if(
-                           structure.joints.begin(), structure.joints.begin() + static_cast<long>(joint),
-                           [](const SlidingJoint& j) { return j.friction.has_value(); }));
+                           structure.riders.begin(), structure.riders.begin() + static_cast<long>(rider),
+                           [](const Rider& j) { return j.friction.has_value(); }));
 }
 
 int of_stop(const Structure& structure, int stop) {
-  return first_of_joint(structure, structure.joints.size()) + stop;
+  return first_of_rider(structure, structure.riders.size()) + stop;
 }
 
 int of_connector(const Structure& structure, std::size_t connector) {
@@ -32,29 +32,29 @@ Eigen::VectorXd no_memory(const Structure& structure) {
 }
 
 std::vector<std::string> what_remembers(const Structure& structure) {
-  const auto body = [&](int joint) { return "\"" + structure.body_of(structure.joints[joint]).name + "\""; };
+  const auto body = [&](int rider) { return "\"" + structure.body_of(structure.riders[rider]).name + "\""; };
   std::vector<std::string> all;
-  for (std::size_t j = 0; j < structure.joints.size(); ++j)
-    if (structure.joints[j].friction)
+  for (std::size_t j = 0; j < structure.riders.size(); ++j)
+    if (structure.riders[j].friction)
       all.push_back("the friction of " + body(static_cast<int>(j)) + " on beam \"" +
-                    structure.beam_of(structure.joints[j]).name + "\"");
+                    structure.beam_of(structure.riders[j]).name + "\"");
   for (const Stop& stop : structure.stops)
-    all.push_back(stop.other < 0 ? "a stop of " + body(stop.joint) + " on beam \"" +
-                                       structure.beam_of(structure.joints[stop.joint]).name + "\""
-                                 : "the stop between " + body(stop.joint) + " and " + body(stop.other));
+    all.push_back(stop.other < 0 ? "a stop of " + body(stop.rider) + " on beam \"" +
+                                       structure.beam_of(structure.riders[stop.rider]).name + "\""
+                                 : "the stop between " + body(stop.rider) + " and " + body(stop.other));
   for (const Connector& connector : structure.connectors)
     if (connector.jumps()) all.push_back("the damping of connector \"" + connector.name + "\"");
   return all;
 }
 
-FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint) {
-  const int first = first_of_joint(structure, joint);
+FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int rider) {
+  const int first = first_of_rider(structure, rider);
   return {memory[first], memory[first + 1], static_cast<int>(memory[first + 2])};
 }
 
-void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, int joint,
-                         const FrictionMemory& of_joint) {
-  memory.segment<of_friction>(first_of_joint(structure, joint)) << of_joint.z, of_joint.s, of_joint.slides;
+void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, int rider,
+                         const FrictionMemory& of_rider) {
+  memory.segment<of_friction>(first_of_rider(structure, rider)) << of_rider.z, of_rider.s, of_rider.slides;
 }
 
 BufferContact buffer_contact(const Structure& structure, const Eigen::VectorXd& memory, int stop) {

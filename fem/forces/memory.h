@@ -6,7 +6,7 @@
 #include "fem/forces/friction_law.h"
 #include "fem/structure/structure.h"
 
-/// State::memory: three numbers of each joint with friction in turn, then one of each stop, what a body
+/// State::memory: three numbers of each rider with friction in turn, then one of each stop, what a body
 /// does to its buffer; then one of each connector that jumps: 1 where it is taut.
 namespace nurbeam {
 
@@ -14,9 +14,9 @@ namespace nurbeam {
 std::vector<std::string> what_remembers(const Structure& structure);
 /// All zero, of a model.
 Eigen::VectorXd no_memory(const Structure& structure);
-FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int joint);
-void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, int joint,
-                         const FrictionMemory& of_joint);
+FrictionMemory friction_memory(const Structure& structure, const Eigen::VectorXd& memory, int rider);
+void set_friction_memory(const Structure& structure, Eigen::VectorXd& memory, int rider,
+                         const FrictionMemory& of_rider);
 /// A body at a buffer: away from it, pressing, or let go by its damper while it is still pressed in.
 enum class BufferContact { away, pressing, let_go };
 BufferContact buffer_contact(const Structure& structure, const Eigen::VectorXd& memory, int stop);

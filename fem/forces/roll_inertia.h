@@ -16,13 +16,13 @@ namespace nurbeam {
 template <class Section>
 class RollInertia {
  public:
-  RollInertia(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int joint)
-      : joint_(joint),
-        inertia_(at.structure.body_of(at.structure.joints[joint]).roll_inertia),
-        section_(at, drawn, joint),
+  RollInertia(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int rider)
+      : joint_(rider),
+        inertia_(at.structure.body_of(at.structure.riders[rider]).roll_inertia),
+        section_(at, drawn, rider),
         dofs_(section_.dofs().begin(), section_.dofs().end()) {}
 
-  int joint() const { return joint_; }
+  int rider() const { return joint_; }
   const std::vector<int>& dofs() const { return dofs_; }
 
   void add_force(const MeshedBeams<3>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const {
@@ -129,7 +129,7 @@ struct BodyRolls {
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     if constexpr (D == 3)
-      for (int j = 0; j < static_cast<int>(binding.at.structure.joints.size()); ++j)
+      for (int j = 0; j < static_cast<int>(binding.at.structure.riders.size()); ++j)
         bind_roll(j, binding, add);
   }
 
@@ -137,12 +137,12 @@ struct BodyRolls {
   template <class Add>
   static void bind_roll(int j, const Binding<3>& binding, Add&& add) {
     const MeshedBeams<3>& at = binding.at;
-    const SlidingJoint& joint = at.structure.joints[j];
-    const double inertia = at.structure.body_of(joint).roll_inertia;
-    if (!joint.follows_section || inertia == 0) return;
-    if (at.mesh.plan.modes[j] == JointMode::free)
+    const Rider& rider = at.structure.riders[j];
+    const double inertia = at.structure.body_of(rider).roll_inertia;
+    if (!rider.follows_section || inertia == 0) return;
+    if (at.mesh.plan.modes[j] == Carried::free)
       add(FreeRoll(inertia, at.mesh.plan.spin(j)));
-    else if (at.mesh.plan.modes[j] == JointMode::node)
+    else if (at.mesh.plan.modes[j] == Carried::node)
       add(RollInertia<FollowedNode>(at, binding.drawn, j));
     else
       add(RollInertia<FollowedPoint>(at, binding.drawn, j));

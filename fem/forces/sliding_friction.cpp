@@ -7,17 +7,17 @@
 namespace nurbeam {
 
 template <int D>
-SlidingFriction<D>::SlidingFriction(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int joint,
+SlidingFriction<D>::SlidingFriction(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int rider,
                                     int first_multiplier)
-    : joint_(joint) {
-  const SlidingJoint& sliding = at.structure.joints[joint];
+    : joint_(rider) {
+  const Rider& sliding = at.structure.riders[rider];
   const double mass = at.structure.body_of(sliding).mass;
   body_ = {&*sliding.friction, sliding.friction->stiffness(mass), sliding.friction->stick_damping(mass),
            1e-9 * mass * at.structure.gravity.norm() + 1e-12};
   multiplier_ = first_multiplier;
-  place_ = at.mesh.joints[joint].place;
-  const double s = at.mesh.plan.places[joint];
-  const int node = at.mesh.joints[joint].node;
+  place_ = at.mesh.riders[rider].place;
+  const double s = at.mesh.plan.places[rider];
+  const int node = at.mesh.riders[rider].node;
   carrier_ = at.structure.beam_of(sliding).rigid ? Carrier::guide
              : node >= 0                         ? Carrier::node
                                                  : Carrier::point;
@@ -49,7 +49,7 @@ typename SlidingFriction<D>::Slopes SlidingFriction<D>::slopes(const MeshedBeams
   }
   if (carrier_ == Carrier::guide) {
     const CurvePoint p =
-        at.structure.beam_of(at.structure.joints[joint_]).curve.point_in(segment_, state.q[place_]);
+        at.structure.beam_of(at.structure.riders[joint_]).curve.point_in(segment_, state.q[place_]);
     slopes.left = slopes.right = p.tangent;
     slopes.by_place = p.curvature;
     return slopes;

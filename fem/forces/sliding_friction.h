@@ -14,16 +14,16 @@ class SlidingFriction {
  public:
   /// `first_multiplier`: of the constraint that ties the body to the beam, whose multipliers are the beam's
   /// force on it.
-  SlidingFriction(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int joint, int first_multiplier);
+  SlidingFriction(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int rider, int first_multiplier);
 
   /// Of all bodies that are on their beams and not held there.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     const MeshedBeams<D>& at = binding.at;
-    for (int j = 0; j < static_cast<int>(at.structure.joints.size()); ++j) {
-      const JointMode mode = at.mesh.plan.modes[j];
-      const bool slides = mode == JointMode::node || mode == JointMode::point;
-      if (at.structure.joints[j].friction && slides && !at.mesh.plan.holds(j))
+    for (int j = 0; j < static_cast<int>(at.structure.riders.size()); ++j) {
+      const Carried mode = at.mesh.plan.modes[j];
+      const bool slides = mode == Carried::node || mode == Carried::point;
+      if (at.structure.riders[j].friction && slides && !at.mesh.plan.holds(j))
         add(SlidingFriction(at, binding.drawn, j, binding.ties[j]));
     }
   }

@@ -10,11 +10,11 @@ template <int D>
 struct Binding {
   MeshedBeams<D> at;
   const Eigen::VectorXd& drawn;   ///< coordinates of the drawing
-  const std::vector<bool>& held;  ///< joints whose place is held at its value in the plan
+  const std::vector<bool>& held;  ///< riders whose place is held at its value in the plan
   int rows = 0;                   ///< those of the constraints that are bound
-  std::vector<int> ties = {};     ///< per joint: first of the rows that tie its body to its beam
+  std::vector<int> ties = {};     ///< per rider: first of the rows that tie its body to its beam
 
-  bool holds(int joint) const { return joint < static_cast<int>(held.size()) && held[joint]; }
+  bool holds(int rider) const { return rider < static_cast<int>(held.size()) && held[rider]; }
 };
 
 }  // namespace nurbeam

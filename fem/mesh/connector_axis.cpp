@@ -17,7 +17,7 @@ int kept_position(const Structure& structure, const Mesh& mesh, int beam, double
 template <int D>
 ConnectorAxis<D>::ConnectorAxis(const Connector& connector, const Structure& structure, const Mesh& mesh) {
   for (const int i : {0, 1}) {
-    const ConnectorEnd& end = connector.ends[i];
+    const Grip& end = connector.ends[i];
     const int r = end.body >= 0   ? mesh.bodies[end.body]
                   : end.beam >= 0 ? kept_position(structure, mesh, end.beam, end.s,
                                                   "connector \"" + connector.name + "\"")

@@ -4,12 +4,12 @@ namespace nurbeam {
 
 namespace {
 
-// Of the body of a joint, with its offset, whose joint is at s.
-Eigen::Vector3d drawn_body(const Structure& structure, const SlidingJoint& joint, double s) {
-  const ReferenceCurve& curve = structure.beam_of(joint).curve;
-  if (!joint.is_offset() || !curve.has_sections()) return curve.position(s);
+// Of the body of a rider, with its offset, whose rider is at s.
+Eigen::Vector3d drawn_body(const Structure& structure, const Rider& rider, double s) {
+  const ReferenceCurve& curve = structure.beam_of(rider).curve;
+  if (!rider.is_offset() || !curve.has_sections()) return curve.position(s);
   const DrawnSection section = curve.section(s);
-  return curve.position(s) + joint.offset[0] * section.d1 + joint.offset[1] * section.d2;
+  return curve.position(s) + rider.offset[0] * section.d1 + rider.offset[1] * section.d2;
 }
 
 }  // namespace
@@ -19,8 +19,8 @@ Eigen::VectorXd planned_places(const Mesh& mesh) {
   for (const std::vector<MeshNode>& nodes : mesh.nodes)
     for (const MeshNode& node : nodes)
       if (node.place >= 0) q[node.place] = node.s;
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j)
-    if (mesh.joints[j].place >= 0) q[mesh.joints[j].place] = mesh.plan.places[j];
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j)
+    if (mesh.riders[j].place >= 0) q[mesh.riders[j].place] = mesh.plan.places[j];
   return q;
 }
 
@@ -36,19 +36,19 @@ Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) 
       q.segment(node.slope_left, D) = curve.tangent(node.s, true).head(D);
       q.segment(node.slope_right, D) = curve.tangent(node.s).head(D);
     }
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    if (mesh.plan.modes[j] == JointMode::free) continue;
-    const SlidingJoint& joint = structure.joints[j];
-    q.segment(mesh.bodies[joint.body], D) = drawn_body(structure, joint, mesh.plan.places[j]).head(D);
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+    if (mesh.plan.modes[j] == Carried::free) continue;
+    const Rider& rider = structure.riders[j];
+    q.segment(mesh.bodies[rider.body], D) = drawn_body(structure, rider, mesh.plan.places[j]).head(D);
   }
   return q;
 }
 
-Eigen::Vector3d drawn_place(const Structure& structure, const ConnectorEnd& end) {
+Eigen::Vector3d drawn_place(const Structure& structure, const Grip& end) {
   if (end.beam >= 0) return structure.beams[end.beam].curve.position(end.s);
   if (end.body < 0) return end.point;
-  for (const SlidingJoint& joint : structure.joints)
-    if (joint.body == end.body) return drawn_body(structure, joint, joint.s);
+  for (const Rider& rider : structure.riders)
+    if (rider.body == end.body) return drawn_body(structure, rider, rider.s);
   return structure.bodies.at(end.body).position;
 }
 

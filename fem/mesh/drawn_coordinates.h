@@ -9,7 +9,7 @@ namespace nurbeam {
 Eigen::VectorXd planned_places(const Mesh& mesh);
 
 /// Where a connector's end is drawn, 3 [m].
-Eigen::Vector3d drawn_place(const Structure& structure, const ConnectorEnd& end);
+Eigen::Vector3d drawn_place(const Structure& structure, const Grip& end);
 
 /// The coordinates of the drawn shape, (mesh.coordinate_count).
 Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh);

@@ -7,14 +7,14 @@ namespace nurbeam {
 
 namespace {
 
-// Numbers the coordinates, beam by beam, then what is left of joints and bodies.
+// Numbers the coordinates, beam by beam, then what is left of riders and bodies.
 class Numbering {
  public:
   Numbering(const Structure& structure, const MeshPlan& plan) : structure_(structure), plan_(plan) {
     mesh_.dimension = structure.dimension;
-    mesh_.joints.assign(structure.joints.size(), {-1, -1});
+    mesh_.riders.assign(structure.riders.size(), {-1, -1});
     mesh_.bodies.assign(structure.bodies.size(), -1);
-    std::size_t most = structure.joints.size();
+    std::size_t most = structure.riders.size();
     for (const Beam& beam : structure.beams) most += beam.home.size();
     mesh_.spans.reserve(most);
   }
@@ -28,10 +28,10 @@ class Numbering {
 
   Mesh finish() {
     mesh_.first_span.push_back(static_cast<int>(mesh_.spans.size()));
-    for (std::size_t j = 0; j < structure_.joints.size(); ++j) {
-      if (plan_.modes[j] == JointMode::node) continue;
-      body_position(structure_.joints[j].body);
-      if (plan_.modes[j] != JointMode::free) mesh_.joints[j].place = take(1);
+    for (std::size_t j = 0; j < structure_.riders.size(); ++j) {
+      if (plan_.modes[j] == Carried::node) continue;
+      body_position(structure_.riders[j].body);
+      if (plan_.modes[j] != Carried::free) mesh_.riders[j].place = take(1);
     }
     for (std::size_t body = 0; body < structure_.bodies.size(); ++body) body_position(static_cast<int>(body));
     mesh_.coordinate_count = next_;
@@ -50,11 +50,11 @@ class Numbering {
     const Beam& beam = structure_.beams[b];
     std::vector<MeshNode> nodes;
     if (beam.rigid) return nodes;
-    nodes.reserve(beam.home.size() + structure_.joints.size());
+    nodes.reserve(beam.home.size() + structure_.riders.size());
     for (int h = 0; h < beam.home_intervals() + (beam.is_ring() ? 0 : 1); ++h)
       if (plan_.beams[b].present[h]) nodes.push_back({beam.home[h].s, h, -1, 0, 0, 0, -1});
-    for (int j = 0; j < static_cast<int>(structure_.joints.size()); ++j)
-      if (structure_.joints[j].beam == b && plan_.modes[j] == JointMode::node)
+    for (int j = 0; j < static_cast<int>(structure_.riders.size()); ++j)
+      if (structure_.riders[j].beam == b && plan_.modes[j] == Carried::node)
         insert({beam.curve.wrapped(plan_.places[j]), -1, j, 0, 0, 0, -1}, nodes);
     return nodes;
   }
@@ -69,19 +69,19 @@ class Numbering {
 
   void number(MeshNode& node, int b, int i) {
     const int D = structure_.dimension;
-    const bool is_body = node.joint >= 0 && !structure_.joints[node.joint].stands_apart();
-    node.r = is_body ? body_position(structure_.joints[node.joint].body) : take(D);
+    const bool is_body = node.rider >= 0 && !structure_.riders[node.rider].stands_apart();
+    node.r = is_body ? body_position(structure_.riders[node.rider].body) : take(D);
     node.slope_left = node.slope_right = take(D);
-    const bool two_slopes = node.joint < 0 ? structure_.beams[b].home[node.home].kind != NodeKind::smooth
-                                           : !structure_.joints[node.joint].continuous_slope;
+    const bool two_slopes = node.rider < 0 ? structure_.beams[b].home[node.home].kind != NodeKind::smooth
+                                           : !structure_.riders[node.rider].continuous_slope;
     if (two_slopes) node.slope_right = take(D);
     if (structure_.beams[b].has_torsion()) {
       node.angle_left = node.angle_right = take(1);
       if (two_slopes) node.angle_right = take(1);
     }
-    if (node.joint < 0) return;
+    if (node.rider < 0) return;
     node.place = take(1);
-    mesh_.joints[node.joint] = {node.place, i};
+    mesh_.riders[node.rider] = {node.place, i};
   }
 
   void add_spans(int b, const std::vector<MeshNode>& nodes) {
@@ -91,7 +91,7 @@ class Numbering {
     const int count = static_cast<int>(nodes.size());
     const auto node = [&](int i) -> const MeshNode& { return nodes[i % count]; };
     const auto at = [&](int i) { return node(i).s + (i >= count ? L : 0); };
-    const auto shift = [&](int i) { return node(i).joint >= 0 ? at(i) - plan_.places[node(i).joint] : 0; };
+    const auto shift = [&](int i) { return node(i).rider >= 0 ? at(i) - plan_.places[node(i).rider] : 0; };
     for (int i = 0; i < count - (beam.is_ring() ? 0 : 1); ++i)
       mesh_.spans.push_back({b, i, (i + 1) % count, node(i).place, node(i + 1).place,
                              beam.has_torsion() ? take(1) : -1, at(i), at(i + 1), shift(i), shift(i + 1)});

@@ -10,8 +10,8 @@ struct MeshNode {
   double s;         ///< reference arc length, on a ring in [0, length); of a moving node: when the mesh was
                     ///< made [m]
   int home;         ///< index of the home node, -1 for a moving node
-  int joint;        ///< index of the sliding joint, -1 for a home node
-  int r;            ///< first of D position coordinates; of a moving node those of the joint's body, where
+  int rider;        ///< index of the rider, -1 for a home node
+  int r;            ///< first of D position coordinates; of a moving node those of the rider's body, where
                     ///< that does not stand apart
   int slope_left;   ///< first of D gradient coordinates r_s, towards the beam's start
   int slope_right;  ///< the same as slope_left unless the node is a hinge or a corner
@@ -32,8 +32,8 @@ struct MeshSpan {
   double end(const Eigen::VectorXd& q) const { return place_b >= 0 ? q[place_b] + shift_b : s_b; }
 };
 
-/// What a sliding joint is in a mesh; the body's position is Mesh::bodies.
-struct MeshJoint {
+/// What a rider is in a mesh; the body's position is Mesh::bodies.
+struct MeshRider {
   int place;  ///< coordinate s or sigma; -1 when free
   int node;   ///< index in its beam's nodes in mode node, else -1
 };
@@ -46,7 +46,7 @@ struct Mesh {
                                              ///< of a rigid guide none
   std::vector<MeshSpan> spans;               ///< in order along the beams
   std::vector<int> first_span;               ///< per beam, plus the end
-  std::vector<MeshJoint> joints;
+  std::vector<MeshRider> riders;
   std::vector<int> bodies;  ///< first of D position coordinates of each body
   int coordinate_count = 0;
 

@@ -33,7 +33,7 @@ Chart choose_chart(const Beam& beam, const MeshPlan& plan, const MeshSpan& span,
 template <int D>
 Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& node) {
   const bool is_break = beam.curve.segment_at(node.s, true) != beam.curve.segment_at(node.s);
-  if (!is_break || node.joint >= 0 || node.slope_left != node.slope_right)
+  if (!is_break || node.rider >= 0 || node.slope_left != node.slope_right)
     return Eigen::Matrix<double, D, 1>::Zero();
   return (beam.curve.tangent(node.s, true) - beam.curve.tangent(node.s)).template head<D>();
 }

@@ -26,31 +26,31 @@ int node_to_replace(const Beam& beam, double s) {
 // A moving node changes the stored energy a little with its place, and that little is a force on the body:
 // one that is as light as this beside its element is dragged about by it. What kink its weight makes is as
 // small.
-bool too_light_for_node(const Structure& structure, const SlidingJoint& joint) {
+bool too_light_for_node(const Structure& structure, const Rider& rider) {
   constexpr double light = 0.01;
-  const Beam& beam = structure.beam_of(joint);
-  const double limit = light * beam.properties.mass_per_length, mass = structure.body_of(joint).mass;
-  return joint.continuous_slope && !joint.motion && mass <= limit * beam.curve.length() &&
-         mass <= limit * beam.home_spacing(joint.s);
+  const Beam& beam = structure.beam_of(rider);
+  const double limit = light * beam.properties.mass_per_length, mass = structure.body_of(rider).mass;
+  return rider.continuous_slope && !rider.motion && mass > 0 && mass <= limit * beam.curve.length() &&
+         mass <= limit * beam.home_spacing(rider.s);
 }
 
 }  // namespace
 
-Passing passing(const SlidingJoint& joint, const HomeNode& node) {
+Passing passing(const Rider& rider, const HomeNode& node) {
   if (!node.permanent) return Passing::as_node;
-  const bool stays = joint.continuous_slope || node.hold != Hold::nothing || node.kept;
+  const bool stays = rider.continuous_slope || node.hold != Hold::nothing || node.kept;
   return stays ? Passing::as_point : Passing::gives_way;
 }
 
-bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach) {
-  const Beam& beam = structure.beam_of(joint);
-  if (beam.rigid || joint.as_point || too_light_for_node(structure, joint)) return true;
+bool near_as_point(const Structure& structure, const Rider& rider, double s, double reach) {
+  const Beam& beam = structure.beam_of(rider);
+  if (beam.rigid || rider.as_point || too_light_for_node(structure, rider)) return true;
   const int before = beam.home_interval(s);
   const double distance = reach * (beam.home_place(before + 1) - beam.home_place(before));
   const auto near = [&](int h) {
     const HomeNode& node = beam.home_node(h);
     return std::abs(beam.home_place(h) - s) <= distance && node.kind == NodeKind::smooth &&
-           passing(joint, node) == Passing::as_point;
+           passing(rider, node) == Passing::as_point;
   };
   return near(before) || near(before + 1);
 }
@@ -58,17 +58,17 @@ bool near_as_point(const Structure& structure, const SlidingJoint& joint, double
 MeshPlan initial_plan(const Structure& structure) {
   MeshPlan plan;
   for (const Beam& beam : structure.beams) plan.beams.push_back({std::vector<bool>(beam.home.size(), true)});
-  for (const SlidingJoint& joint : structure.joints) {
-    const Beam& beam = structure.beam_of(joint);
-    const double from_end = std::min(joint.s, beam.curve.length() - joint.s);
-    const bool on_point = (!beam.is_ring() && from_end < end_zone * beam.home_spacing(joint.s)) ||
-                          near_as_point(structure, joint, joint.s, passing_zone);
-    plan.modes.push_back(on_point ? JointMode::point : JointMode::node);
-    plan.places.push_back(joint.s);
-    plan.held.push_back(joint.release.has_value());
+  for (const Rider& rider : structure.riders) {
+    const Beam& beam = structure.beam_of(rider);
+    const double from_end = std::min(rider.s, beam.curve.length() - rider.s);
+    const bool on_point = (!beam.is_ring() && from_end < end_zone * beam.home_spacing(rider.s)) ||
+                          near_as_point(structure, rider, rider.s, passing_zone);
+    plan.modes.push_back(on_point ? Carried::point : Carried::node);
+    plan.places.push_back(rider.s);
+    plan.held.push_back(rider.release.has_value());
     if (on_point) continue;
-    const int replaced = node_to_replace(beam, joint.s);
-    if (replaced >= 0) plan.beams[joint.beam].present[replaced] = false;
+    const int replaced = node_to_replace(beam, rider.s);
+    if (replaced >= 0) plan.beams[rider.beam].present[replaced] = false;
   }
   return plan;
 }

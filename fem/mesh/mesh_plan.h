@@ -7,8 +7,8 @@
 
 namespace nurbeam {
 
-/// How a sliding joint is carried at present.
-enum class JointMode {
+/// How a rider is carried at present.
+enum class Carried {
   node,     ///< a moving node of the beam: the elements on both sides change length
   point,    ///< a point sigma of the mesh, r_body = r(sigma): near an end of the beam or a permanent node
   stopped,  ///< as point, held at the end
@@ -23,9 +23,9 @@ struct BeamPlan {
 /// Which nodes are there, between two length-control events.
 struct MeshPlan {
   std::vector<BeamPlan> beams;
-  std::vector<JointMode> modes;  ///< per sliding joint
-  std::vector<double> places;    ///< s of each sliding joint when the plan is made [m]
-  std::vector<bool> held = {};   ///< per sliding joint: at its place, until its release; empty: none
+  std::vector<Carried> modes;   ///< per rider
+  std::vector<double> places;   ///< s of each rider when the plan is made [m]
+  std::vector<bool> held = {};  ///< per rider: at its place, until its release; empty: none
   /// Constant weights by beam and (s_a, s_b), for elements whose weights a merge or split has set.
   struct Weights {
     int beam;
@@ -42,42 +42,42 @@ struct MeshPlan {
     double turn;
   };
   std::vector<SectionCharts> section_charts;
-  /// Per sliding joint: with which a body that followed a section has left it [rad/s]; empty: none.
+  /// Per rider: with which a body that followed a section has left it [rad/s]; empty: none.
   std::vector<double> spins = {};
   /// Per stop of the model: a body rests against it; empty: none.
   std::vector<bool> closed = {};
 
   bool is_closed(int stop) const { return stop < static_cast<int>(closed.size()) && closed[stop]; }
-  bool holds(int joint) const { return joint < static_cast<int>(held.size()) && held[joint]; }
-  double spin(int joint) const { return joint < static_cast<int>(spins.size()) ? spins[joint] : 0; }
+  bool holds(int rider) const { return rider < static_cast<int>(held.size()) && held[rider]; }
+  double spin(int rider) const { return rider < static_cast<int>(spins.size()) ? spins[rider] : 0; }
 };
 
-/// What becomes of a home node when a joint comes to it.
+/// What becomes of a home node when a rider comes to it.
 enum class Passing {
-  as_node,   ///< it is removed before the joint, and returns behind it
-  as_point,  ///< it stays: the joint passes it as a point of the mesh
+  as_node,   ///< it is removed before the rider, and returns behind it
+  as_point,  ///< it stays: the rider passes it as a point of the mesh
   gives_way  ///< it stays as long as it can: a point cannot carry the kink of a discontinuous slope
 };
 /// Of a home node that is no hinge and no corner.
-Passing passing(const SlidingJoint& joint, const HomeNode& node);
+Passing passing(const Rider& rider, const HomeNode& node);
 
-/// Nearness to a beam end, in home element lengths, at which a joint is carried as a point; it becomes a node
+/// Nearness to a beam end, in home element lengths, at which a rider is carried as a point; it becomes a node
 /// again at twice this distance.
 inline constexpr double end_zone = 0.2;
-/// Distance of two joints on a beam, in home element lengths, at which they count as having met.
+/// Distance of two riders on a beam, in home element lengths, at which they count as having met.
 inline constexpr double meeting_distance = 0.05;
 /// The same on a rigid guide, where there are no elements between them.
 inline constexpr double touching_distance = 3e-6;
-/// Nearness to a permanent node at which a joint becomes a point (or that node gives way) and, larger, a node
+/// Nearness to a permanent node at which a rider becomes a point (or that node gives way) and, larger, a node
 /// again, in home element lengths.
 inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
 
-/// Whether a joint at s is carried as a point: it is to be, its beam is a rigid guide, its body is too light
+/// Whether a rider at s is carried as a point: it is to be, its beam is a rigid guide, its body is too light
 /// for a node, or a node that it passes as a point is within `reach` home element lengths.
-bool near_as_point(const Structure& structure, const SlidingJoint& joint, double s, double reach);
+bool near_as_point(const Structure& structure, const Rider& rider, double s, double reach);
 
-/// The drawn mesh with every sliding joint at its start: the home node nearest to it gives way to the moving
-/// node; near an end or a permanent node, and with a light body, the joint is a point.
+/// The drawn mesh with every rider at its start: the home node nearest to it gives way to the moving
+/// node; near an end or a permanent node, and with a light body, the rider is a point.
 MeshPlan initial_plan(const Structure& structure);
 
 }  // namespace nurbeam

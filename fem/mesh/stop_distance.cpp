@@ -10,10 +10,10 @@ using Eigen::Vector3d;
 
 // Where a sliding body meets others: its own place, or that of its node where it hangs beside the beam; -1
 // where it has neither.
-int meeting_place(const Structure& structure, const Mesh& mesh, int joint) {
-  const SlidingJoint& of = structure.joints[joint];
+int meeting_place(const Structure& structure, const Mesh& mesh, int rider) {
+  const Rider& of = structure.riders[rider];
   if (!of.is_offset()) return mesh.bodies[of.body];
-  const int node = mesh.joints[joint].node;
+  const int node = mesh.riders[rider].node;
   return node < 0 ? -1 : mesh.nodes[of.beam][node].r;
 }
 
@@ -28,13 +28,13 @@ struct StopDistance::Chord {
 
 StopDistance::StopDistance(const Structure& structure, const Mesh& mesh, const Stop& stop)
     : stop_(&stop),
-      curve_(&structure.beam_of(structure.joints[stop.joint]).curve),
+      curve_(&structure.beam_of(structure.riders[stop.rider]).curve),
       dimension_(structure.dimension),
-      dofs_{mesh.joints[stop.joint].place, stop.other < 0 ? -1 : mesh.joints[stop.other].place},
-      bodies_{structure.joints[stop.joint].body, stop.other < 0 ? -1 : structure.joints[stop.other].body} {
-  if (stop.other < 0 || structure.beam_of(structure.joints[stop.joint]).rigid) return;
+      dofs_{mesh.riders[stop.rider].place, stop.other < 0 ? -1 : mesh.riders[stop.other].place},
+      bodies_{structure.riders[stop.rider].body, stop.other < 0 ? -1 : structure.riders[stop.other].body} {
+  if (stop.other < 0 || structure.beam_of(structure.riders[stop.rider]).rigid) return;
   gap_ = stop.place > 0 ? stop.place : stop.place + curve_->length();
-  const std::array<int, 2> at{meeting_place(structure, mesh, stop.joint),
+  const std::array<int, 2> at{meeting_place(structure, mesh, stop.rider),
                               meeting_place(structure, mesh, stop.other)};
   if (at[0] < 0 || at[1] < 0) return;
   for (const int first : at)
@@ -42,7 +42,7 @@ StopDistance::StopDistance(const Structure& structure, const Mesh& mesh, const S
 }
 
 double StopDistance::along_beam(const Eigen::VectorXd& q) const {
-  return stop_->weight_of_joint() * q[dofs_[0]] +
+  return stop_->weight_of_rider() * q[dofs_[0]] +
          (dofs_[1] >= 0 ? stop_->weight_of_other() * q[dofs_[1]] : 0) + stop_->offset();
 }
 
@@ -74,7 +74,7 @@ double StopDistance::value(const Eigen::VectorXd& q) const {
 
 StopDistance::Vector StopDistance::gradient(const Eigen::VectorXd& q) const {
   Vector gradient = Vector::Zero(static_cast<Eigen::Index>(dofs_.size()));
-  gradient.head<2>() << stop_->weight_of_joint(), stop_->weight_of_other();
+  gradient.head<2>() << stop_->weight_of_rider(), stop_->weight_of_other();
   if (!near(q)) return gradient;
   const Chord drawn = chord(q);
   const Vector3d n = line(q).normalized();

@@ -8,7 +8,7 @@ namespace nurbeam {
 
 /// Whether all bodies of a stop are on their beams.
 inline bool is_in_place(const Mesh& mesh, const Stop& stop) {
-  return mesh.joints[stop.joint].place >= 0 && (stop.other < 0 || mesh.joints[stop.other].place >= 0);
+  return mesh.riders[stop.rider].place >= 0 && (stop.other < 0 || mesh.riders[stop.other].place >= 0);
 }
 
 /// The distance d of a stop that is in place, in one mesh: of one body along its beam; of two that too as

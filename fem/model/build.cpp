@@ -43,8 +43,8 @@ void allow_kinks(BeamModel& model, int b) {
   constexpr double short_reach = 0.02;  // of an element
   Beam& beam = model.beams[b];
   const double tension = beam.properties.drawn_tension();
-  const bool slides = std::any_of(model.joints.begin(), model.joints.end(),
-                                  [b](const SlidingJoint& joint) { return joint.beam == b; });
+  const bool slides = std::any_of(model.riders.begin(), model.riders.end(),
+                                  [b](const Rider& joint) { return joint.beam == b; });
   if (!(tension > 0) || slides || beam.has_torsion()) return;
   for (int h = 1; h < beam.home_intervals(); ++h) {
     const double l = std::min(beam.home[h].s - beam.home[h - 1].s, beam.home[h + 1].s - beam.home[h].s);
@@ -172,13 +172,25 @@ int ModelBuilder::add_body(std::string name, double mass, const Eigen::Vector3d&
   return static_cast<int>(model_.bodies.size()) - 1;
 }
 
-SlidingJoint& ModelBuilder::slide(int body, int beam, double s, double speed) {
+Rider& ModelBuilder::slide(int body, int beam, double s, double speed) {
   if (body < 0 || body >= static_cast<int>(model_.bodies.size()))
     refuse("there is no body " + std::to_string(body) + "; the model has " +
            std::to_string(model_.bodies.size()));
   checked_beam(beam);
-  model_.joints.push_back({.body = body, .beam = beam, .s = place(beam, s), .speed = speed, .motion = {}});
-  return model_.joints.back();
+  model_.riders.push_back({.body = body, .beam = beam, .s = place(beam, s), .speed = speed, .motion = {}});
+  return model_.riders.back();
+}
+
+Rider& ModelBuilder::lead_through(std::string name, const Eigen::Vector3d& position, int beam, double s) {
+  if (checked_beam(beam).rigid)
+    refuse("beam \"" + model_.beams[beam].name + "\" is a rigid guide: it runs through nothing");
+  model_.bodies.push_back({.name = std::move(name), .mass = 0, .position = position});
+  const int ring = static_cast<int>(model_.bodies.size()) - 1;
+  add(HeldBody{ring, position});
+  Rider& rider = slide(ring, beam, s);
+  rider.continuous_slope = false;
+  rider.rest = StaticPlace::free;
+  return rider;
 }
 
 ModelBuilder& ModelBuilder::force(int beam, double s, const Eigen::Vector3d& value) {
@@ -189,8 +201,7 @@ ModelBuilder& ModelBuilder::moment(int beam, double s, const Eigen::Vector3d& va
   return add(Moment{{.beam = beam, .s = elastic_place(beam, s), .value = value}});
 }
 
-Connector& ModelBuilder::connect(const ConnectorEnd& from, const ConnectorEnd& to, ConnectorType type,
-                                 double stiffness) {
+Connector& ModelBuilder::connect(const Grip& from, const Grip& to, ConnectorType type, double stiffness) {
   if (type != ConnectorType::rod && !(stiffness >= 0))
     refuse("a connector with a stiffness of " + text_of(stiffness) + " N/m; it must not be negative");
   if (from.is_point() && to.is_point()) refuse("a connector between two points moves nothing");
@@ -198,7 +209,7 @@ Connector& ModelBuilder::connect(const ConnectorEnd& from, const ConnectorEnd& t
                       .ends = {from, to},
                       .type = type,
                       .stiffness = stiffness};
-  for (ConnectorEnd& end : connector.ends)
+  for (Grip& end : connector.ends)
     if (end.beam >= 0) end.s = place(end.beam, end.s);
   connector.length = (drawn_place(model_, connector.ends[1]) - drawn_place(model_, connector.ends[0])).norm();
   model_.connectors.push_back(std::move(connector));
@@ -217,7 +228,7 @@ ModelBuilder& ModelBuilder::add(Constraint constraint) {
 
 BeamModel ModelBuilder::build() const {
   BeamModel model = model_;
-  for (const SlidingJoint& joint : model.joints)
+  for (const Rider& joint : model.riders)
     if (const Beam& beam = model.beam_of(joint);
         joint.follows_section && !(beam.has_torsion() && joint.continuous_slope))
       refuse("a body follows the section of a beam with torsion, where its slope is continuous: \"" +

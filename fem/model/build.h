@@ -6,13 +6,13 @@
 
 namespace nurbeam {
 
-/// How a beam is cut into elements, between breaks of the drawing, supports and joints: `elements` in all,
+/// How a beam is cut into elements, between breaks of the drawing, supports and riders: `elements` in all,
 /// spread in proportion to length.
 struct Division {
   int elements = 20;
 };
 
-/// Makes a model part by part, whose parts fit: nodes where breaks, supports and joints are, indices that
+/// Makes a model part by part, whose parts fit: nodes where breaks, supports and riders are, indices that
 /// exist, places on their beams. Places are reference arc lengths [m]; one beyond a beam's end is at the end.
 ///
 /// All functions throw std::invalid_argument, with the value and the rule, for what cannot be.
@@ -41,21 +41,24 @@ class ModelBuilder {
   ModelBuilder& guide(int beam, double s, const Eigen::Vector3d& along);
   /// Holds position and roll of a beam with torsion.
   ModelBuilder& fork(int beam, double s);
-  /// Joins two beams; a rigid joint keeps their angle, and with torsion the orientation of their sections.
+  /// Joins two beams; a rigid rider keeps their angle, and with torsion the orientation of their sections.
   ModelBuilder& join(int beam_a, double s_a, int beam_b, double s_b, bool rigid = false);
 
   /// Return the number of the body.
   int add_body(std::string name, double mass);
-  /// One that no joint places.
+  /// One that no rider places.
   int add_body(std::string name, double mass, const Eigen::Vector3d& position,
                const Eigen::Vector3d& velocity = {0, 0, 0});
-  /// Puts a body on a beam, to slide along it; returns the joint, to change how.
-  SlidingJoint& slide(int body, int beam, double s, double speed = 0);
+  /// Puts a body on a beam, to slide along it; returns the rider, to change how.
+  Rider& slide(int body, int beam, double s, double speed = 0);
 
-  /// Fastens something between two ends, as long as drawn; bodies must have their joints before. Returns it,
+  /// Leads a beam through an eyelet: a ring that stands at a point, without mass and friction. Returns the
+  /// rider, to change how.
+  Rider& lead_through(std::string name, const Eigen::Vector3d& position, int beam, double s);
+
+  /// Fastens something between two ends, as long as drawn; bodies must have their riders before. Returns it,
   /// to change how.
-  Connector& connect(const ConnectorEnd& from, const ConnectorEnd& to, ConnectorType type,
-                     double stiffness = 0);
+  Connector& connect(const Grip& from, const Grip& to, ConnectorType type, double stiffness = 0);
 
   /// A dead force [N] or moment [N m] at a place.
   ModelBuilder& force(int beam, double s, const Eigen::Vector3d& value);
@@ -80,7 +83,7 @@ class ModelBuilder {
   std::vector<Part> parts_;
 };
 
-/// Says at the home nodes of a model what its supports, joints, connectors and masses hold there, as build()
+/// Says at the home nodes of a model what its supports, riders, connectors and masses hold there, as build()
 /// does; a string may have a kink where connectors or masses are. Throws
 /// std::invalid_argument where one has no node.
 void mark_held_nodes(BeamModel& model);

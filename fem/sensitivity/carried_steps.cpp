@@ -42,8 +42,8 @@ Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) co
         const auto [system, state] = beside(static_cast<std::size_t>(k), step.before, part > 0);
         return system.step_limit(state);
       }
-      for (const MeshJoint& joint : system_->mesh().joints)
-        if (const int place = joint.place; place >= 0) {
+      for (const MeshRider& rider : system_->mesh().riders)
+        if (const int place = rider.place; place >= 0) {
           own.q[place] = step.before.q[place] + part * tangents_.q(place, k);
           own.v[place] = step.before.v[place] + part * tangents_.v(place, k);
         }

@@ -14,10 +14,10 @@ namespace {
 template <int D>
 bool carries_point(const Assembly<D>& assembly, const std::vector<bool>& elements, const State& near) {
   const Mesh& mesh = assembly.mesh();
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    const JointMode mode = mesh.plan.modes[j];
-    if (mode == JointMode::node || mode == JointMode::free) continue;
-    const int beam = assembly.model()->joints[j].beam;
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+    const Carried mode = mesh.plan.modes[j];
+    if (mode == Carried::node || mode == Carried::free) continue;
+    const int beam = assembly.model()->riders[j].beam;
     if (assembly.model()->beams[beam].rigid) return true;
     if (elements[find_span(*assembly.model(), mesh, near.q, beam, mesh.plan.places[j])]) return true;
   }

@@ -12,11 +12,11 @@ namespace nurbeam {
 
 namespace {
 
-// Where a joint that the rest of `at` holds is in a neighbouring model [m].
-double held_place(const MeshedState& at, int joint, const BeamModel& model) {
+// Where a rider that the rest of `at` holds is in a neighbouring model [m].
+double held_place(const MeshedState& at, int rider, const BeamModel& model) {
   const BeamModel& drawn = at.system->model();
-  const double s = at.system->mesh().plan.places[joint];
-  const SlidingJoint &own = drawn.joints[joint], &other = model.joints[joint];
+  const double s = at.system->mesh().plan.places[rider];
+  const Rider &own = drawn.riders[rider], &other = model.riders[rider];
   if (other.motion) return other.motion->at(at.state.t).s;
   if (s == own.s) return other.s;
   return corresponding_place(drawn.beam_of(own), s, model.beam_of(other));
@@ -110,8 +110,8 @@ MeshPlan corresponding_plan(const BeamSystem& system, const BeamModel& neighbour
   MeshPlan plan = system.mesh().plan;
   const BeamModel& model = system.model();
   for (std::size_t j = 0; j < plan.places.size(); ++j)
-    plan.places[j] = corresponding_place(model.beam_of(model.joints[j]), plan.places[j],
-                                         neighbour.beam_of(neighbour.joints[j]));
+    plan.places[j] = corresponding_place(model.beam_of(model.riders[j]), plan.places[j],
+                                         neighbour.beam_of(neighbour.riders[j]));
   return plan;
 }
 
@@ -120,8 +120,8 @@ std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, c
                                                      double step) {
   std::vector<std::pair<int, double>> shifts;
   const BeamModel& model = system.model();
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    const int place = system.mesh().joints[j].place, b = model.joints[j].beam;
+  for (std::size_t j = 0; j < model.riders.size(); ++j) {
+    const int place = system.mesh().riders[j].place, b = model.riders[j].beam;
     if (place < 0) continue;
     const double s = state.q[place];
     const int h = model.beams[b].home_interval(s);
@@ -138,17 +138,17 @@ std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, c
 
 std::vector<bool> held_joints(const BeamSystem& system) {
   std::vector<bool> held;
-  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j)
-    held.push_back(row_of_place(system, j) && !system.model().joints[j].motion);
+  for (int j = 0; j < static_cast<int>(system.model().riders.size()); ++j)
+    held.push_back(row_of_place(system, j) && !system.model().riders[j].motion);
   return held;
 }
 
 void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour) {
   const Mesh &mesh = at.system->mesh(), &other = neighbour.system->mesh();
   MeshPlan plan = other.plan;
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    const int beam = at.system->model().joints[j].beam;
-    if (plan.modes[j] != JointMode::point || at.system->model().beams[beam].rigid) continue;
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+    const int beam = at.system->model().riders[j].beam;
+    if (plan.modes[j] != Carried::point || at.system->model().beams[beam].rigid) continue;
     const int span = find_span(at.system->model(), mesh, at.state.q, beam, mesh.plan.places[j]);
     if (find_span(neighbour.system->model(), other, neighbour.state.q, beam, plan.places[j]) == span)
       continue;

@@ -19,13 +19,13 @@ std::shared_ptr<const BeamModel> divided_like(std::shared_ptr<const BeamModel> m
 /// have the drawing's charts, and no elements constant weights.
 MeshPlan corresponding_plan(const BeamSystem& system, const BeamModel& neighbour);
 
-/// By how much the places of the joints of a system, which are coordinates, lie elsewhere in two neighbouring
+/// By how much the places of the riders of a system, which are coordinates, lie elsewhere in two neighbouring
 /// models whose parameter differs by twice `step`.
 std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, const State& state,
                                                      const BeamModel& more, const BeamModel& less,
                                                      double step);
 
-/// The joints whose places a system holds, but for those whose motion is prescribed.
+/// The riders whose places a system holds, but for those whose motion is prescribed.
 std::vector<bool> held_joints(const BeamSystem& system);
 
 /// Puts bodies of a neighbour that are carried as points on the spans on which those of `at` are, whichever
@@ -33,7 +33,7 @@ std::vector<bool> held_joints(const BeamSystem& system);
 void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour);
 
 /// The system of a neighbouring model on the mesh of a rest: with the same nodes, sections in its charts, and
-/// joints held at the corresponding places. Throws std::runtime_error where elements have constant weights.
+/// riders held at the corresponding places. Throws std::runtime_error where elements have constant weights.
 std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
                                          const std::shared_ptr<const BeamModel>& model);
 

@@ -159,7 +159,7 @@ Sensitivities::Shifts Sensitivities::shifts_at(const State& at) const {
 }
 
 // Into the columns of dynamics_ and constraints_, at a state whose time changes too, and whose places of
-// joints are those that correspond, by the shifts that it returns.
+// riders are those that correspond, by the shifts that it returns.
 Sensitivities::Shifts Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
   Shifts shifts = shifts_at(at);
   differences_->find(*system_, at, time, shifts, dynamics_, constraints_);

@@ -53,7 +53,7 @@ struct NeighbourPair {
 ///   - A step that the system's step limit has shortened is longer as this is.
 ///
 /// dR is half the difference of the residual of the neighbours at the state of the run, where they differ,
-/// and with the places of joints where they correspond: at the same place in metres of a curve that has
+/// and with the places of riders where they correspond: at the same place in metres of a curve that has
 /// become longer before it, a moving element is strained so far that the cube of its strain counts, which K
 /// knows nothing of. What a run decides - steps of its error control, when the mesh changes - is the same for
 /// the neighbours: derivatives are those of the discrete motion with these decisions.

@@ -25,7 +25,7 @@ struct Sensitivities::Parameter {
   State change(const State& from, const State& tangent, const std::function<bool(MeshedState&)>& change);
 };
 
-/// Of the neighbours of all parameters; and the joints that they hold.
+/// Of the neighbours of all parameters; and the riders that they hold.
 struct Sensitivities::Meshes {
   std::vector<std::pair<MeshPlan, MeshPlan>> plans;  ///< with more and with less of each parameter
   std::vector<bool> held;
@@ -43,7 +43,7 @@ struct Sensitivities::Record {
   std::optional<HeldExtremes> extremes = {};       ///< that are asked for
 };
 
-/// A rest of the run, and how its residual changes by each parameter where places of joints correspond.
+/// A rest of the run, and how its residual changes by each parameter where places of riders correspond.
 struct Sensitivities::Rest {
   std::unique_ptr<const BeamSystem> system;
   RestAdjoint adjoint;

@@ -130,16 +130,16 @@ void TransferTangent::interpolate(MotionTangents& tangents) const {
 void TransferTangent::put_bodies(const State& at, MotionTangents& tangents) const {
   const Mesh& mesh = system_->mesh();
   const int D = mesh.dimension;
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    if (mesh.plan.modes[j] != JointMode::point) continue;
-    const SlidingJoint& joint = system_->model().joints[j];
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+    if (mesh.plan.modes[j] != Carried::point) continue;
+    const Rider& rider = system_->model().riders[j];
     const Matrix places = rates(D, [&](std::size_t k, bool more) -> Vector {
       const Neighbours& of = neighbours_[k];
       const State state = moved_along(at, tangents, k, more ? of.step : -of.step);
-      return material_point(more ? *of.more : *of.less, state, joint.beam, state.q[mesh.joints[j].place])
+      return material_point(more ? *of.more : *of.less, state, rider.beam, state.q[mesh.riders[j].place])
           .r.head(D);
     });
-    tangents.q.middleRows(mesh.bodies[joint.body], D) = places;
+    tangents.q.middleRows(mesh.bodies[rider.body], D) = places;
   }
 }
 

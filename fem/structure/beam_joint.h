@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "fem/structure/attachment.h"
+#include "fem/structure/grip.h"
 #include "fem/structure/home_nodes.h"
 
 namespace nurbeam {
@@ -24,7 +24,7 @@ struct BeamJoint {
   /// which is given as drawn.
   std::optional<Eigen::Vector3d> axis = {};
 
-  Attachment place() const { return Attachment::to_beam(beam_a, s_a); }
+  Grip place() const { return Grip::on_beam(beam_a, s_a); }
   /// "joint.cable.mast", where it has no name of its own.
   std::string reaction_name(const Structure& structure) const;
   template <class Visit>

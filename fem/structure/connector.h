@@ -5,22 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "fem/structure/grip.h"
 #include "fem/structure/home_nodes.h"
 
 namespace nurbeam {
-
-/// What a connector is fastened to: a body, a place of a beam that keeps its node, or a point in space.
-struct ConnectorEnd {
-  int body = -1;
-  int beam = -1;
-  double s = 0;                                     ///< [m]
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]
-
-  static ConnectorEnd on_body(int body) { return {.body = body}; }
-  static ConnectorEnd on_beam(int beam, double s) { return {.beam = beam, .s = s}; }
-  static ConnectorEnd at_point(const Eigen::Vector3d& point) { return {.point = point}; }
-  bool is_point() const { return body < 0 && beam < 0; }
-};
 
 enum class ConnectorType {
   spring,
@@ -43,7 +31,7 @@ enum class ConnectorLength {
 /// With a damper N jumps where e comes to 0, at which a step ends: State::memory says where one is taut.
 struct Connector {
   std::string name;
-  std::array<ConnectorEnd, 2> ends;
+  std::array<Grip, 2> ends;  ///< a place of a beam keeps its node
   ConnectorType type = ConnectorType::spring;
   double stiffness = 0;                           ///< k [N/m]
   double damping = 0;                             ///< c [N s/m]
@@ -58,7 +46,7 @@ struct Connector {
   }
   template <class Visit>
   void for_each_node(Visit&& visit) const {
-    for (const ConnectorEnd& end : ends)
+    for (const Grip& end : ends)
       if (end.beam >= 0)
         visit(
             end.beam, end.s, [](HomeNode& node) { node.kept = true; });

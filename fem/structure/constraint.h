@@ -2,6 +2,7 @@
 #include <variant>
 
 #include "fem/structure/beam_joint.h"
+#include "fem/structure/held_body.h"
 #include "fem/structure/support.h"
 
 namespace nurbeam {
@@ -12,6 +13,6 @@ namespace nurbeam {
 /// them: for_each_node(visit), which calls visit(beam, s, mark) for places that keep a node, mark(home node)
 /// saying why; `from_outside`, where what it gives comes from no other part of the model; `motion`, an
 /// optional table of where it moves what it holds, with rows().
-using Constraint = std::variant<Support, BeamJoint>;
+using Constraint = std::variant<Support, BeamJoint, HeldBody>;
 
 }  // namespace nurbeam

@@ -18,7 +18,7 @@ namespace nurbeam {
 struct Body {
   std::string name;
   double mass;  ///< [kg]
-  /// Where it starts and how fast, when no sliding joint says so [m], [m/s].
+  /// Where it starts and how fast, when no rider says so [m], [m/s].
   Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
   double roll_inertia = 0;  ///< about the tangent of a section that it follows [kg m^2]
   double drag_area = 0;     ///< C_d A, of the drag of the air [m^2]
@@ -32,7 +32,7 @@ enum class StaticPlace {
 };
 
 /// Ties a body to a moving place on a beam.
-struct SlidingJoint {
+struct Rider {
   int body;
   int beam;
   double s;                            ///< at t = 0 [m]
@@ -56,7 +56,7 @@ struct SlidingJoint {
   bool stands_apart() const { return is_offset() || friction.has_value(); }
 };
 
-/// All that has coordinates: beams, bodies, the joints that make nodes of the beams move, and what connects
+/// All that has coordinates: beams, bodies, the riders that make nodes of the beams move, and what connects
 /// bodies, places of beams and points.
 ///
 /// Coordinates are the model's own frame: for dimension 2 the plane of the model (third components zero).
@@ -66,12 +66,12 @@ struct Structure {
   Air air = {};
   std::vector<Beam> beams;
   std::vector<Body> bodies;
-  std::vector<SlidingJoint> joints;
+  std::vector<Rider> riders;
   std::vector<Connector> connectors;
   std::vector<Stop> stops;
 
-  const Beam& beam_of(const SlidingJoint& joint) const { return beams[joint.beam]; }
-  const Body& body_of(const SlidingJoint& joint) const { return bodies[joint.body]; }
+  const Beam& beam_of(const Rider& rider) const { return beams[rider.beam]; }
+  const Body& body_of(const Rider& rider) const { return bodies[rider.body]; }
 };
 
 }  // namespace nurbeam

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "fem/structure/attachment.h"
 #include "fem/structure/displacement_table.h"
+#include "fem/structure/grip.h"
 #include "fem/structure/home_nodes.h"
 
 namespace nurbeam {
@@ -26,7 +26,7 @@ struct Support {
   std::optional<Eigen::Vector3d> guide = {};
 
   static constexpr bool from_outside = true;
-  Attachment place() const { return Attachment::to_beam(beam, s); }
+  Grip place() const { return Grip::on_beam(beam, s); }
   /// "reaction.cable.start", where it has no name of its own.
   std::string reaction_name(const Structure& structure) const;
   template <class Visit>

@@ -430,10 +430,10 @@ Eigen::VectorXd Assembly<D>::coordinate_scale() const {
       if (node.place >= 0) scale[node.place] = length;
     }
   }
-  for (std::size_t j = 0; j < mesh_.joints.size(); ++j) {
-    const double length = model_->beam_of(model_->joints[j]).curve.length();
-    scale.segment<D>(mesh_.bodies[model_->joints[j].body]).setConstant(length);
-    if (mesh_.joints[j].place >= 0) scale[mesh_.joints[j].place] = length;
+  for (std::size_t j = 0; j < mesh_.riders.size(); ++j) {
+    const double length = model_->beam_of(model_->riders[j]).curve.length();
+    scale.segment<D>(mesh_.bodies[model_->riders[j].body]).setConstant(length);
+    if (mesh_.riders[j].place >= 0) scale[mesh_.riders[j].place] = length;
   }
   return scale;
 }

@@ -34,7 +34,7 @@ class Assembly final : public SecondOrderSystem {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  /// `held`: joints whose place is held at its value in the plan. `like`: a system of the same model, of
+  /// `held`: riders whose place is held at its value in the plan. `like`: a system of the same model, of
   /// which elements are taken that it has in common with this one. `neighbour`: one in the same plan, of
   /// which the pattern is taken if it is the same.
   Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
@@ -65,7 +65,7 @@ class Assembly final : public SecondOrderSystem {
   /// [N], [N m]; impulses where `multipliers` are.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> reaction(int i, const State& state,
                                                        const Eigen::VectorXd& multipliers) const;
-  /// What all but weight, inertia and joints gives to a body [N].
+  /// What all but weight, inertia and riders gives to a body [N].
   Vector force_on_body(int body, const State& state) const;
   /// The sum of the elements' energies, of the axis alone; with the potential of gravity. `of`: these
   /// elements alone; null: all.
@@ -119,7 +119,7 @@ class Assembly final : public SecondOrderSystem {
                      Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                     double* values) const override;
-  /// Of elements whose ends move and of the places of joints, and what constraints tie to them.
+  /// Of elements whose ends move and of the places of riders, and what constraints tie to them.
   const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;

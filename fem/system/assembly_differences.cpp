@@ -45,7 +45,7 @@ bool Assembly<D>::differs_in_elements(const Assembly& other, const State& own, c
     return std::none_of(
                model.constraints.begin(), model.constraints.end(),
                [&](const auto& each) { return std::visit(moves, each); }) &&
-           std::none_of(model.joints.begin(), model.joints.end(), moves);
+           std::none_of(model.riders.begin(), model.riders.end(), moves);
   };
   const auto are_of_bodies = [](const std::vector<BoundForce<D>>& forces) {
     const auto is_body = [](const auto& force) {

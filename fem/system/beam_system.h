@@ -15,12 +15,12 @@ class Assembly;
 /// vectors that are asked for (observables.h, material_points.h) have three components, the third 0 in the
 /// plane.
 ///
-/// Coordinates: per beam and node r (D), r_s (D; twice at a hinge, at a corner and where a joint's slope is
+/// Coordinates: per beam and node r (D), r_s (D; twice at a hinge, at a corner and where a rider's slope is
 /// discontinuous), s (moving nodes), then position (D) and sigma of bodies carried as points or flying free.
 /// The order of the multipliers is its own affair: reaction and holding_force ask for them.
 class BeamSystem final : public SecondOrderSystem {
  public:
-  /// `held`: joints whose s is held at its value in the plan (for statics).
+  /// `held`: riders whose s is held at its value in the plan (for statics).
   BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held = {});
   /// On the same mesh as `like`, a system of a neighbouring model: what both have in common is taken from it.
   BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
@@ -40,7 +40,7 @@ class BeamSystem final : public SecondOrderSystem {
   const BeamModel& model() const;
   const std::shared_ptr<const BeamModel>& shared_model() const;
   const Mesh& mesh() const;
-  /// The joints whose s is held at its value in the plan, as they were given.
+  /// The riders whose s is held at its value in the plan, as they were given.
   const std::vector<bool>& held() const;
   int dimension() const { return model().dimension; }
 

@@ -57,13 +57,13 @@ Eigen::VectorXd given_velocities(const BeamSystem& system, const State& state) {
       v.add(end == 0 ? node.slope_right : node.slope_left, D, velocity.by_s);
     }
   }
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    const SlidingJoint& joint = model.joints[j];
-    const std::optional<BeamVelocity>& given = model.beam_of(joint).velocity;
-    if (!given || mesh.joints[j].node >= 0 || mesh.joints[j].place < 0) continue;
-    const double s = state.q[mesh.joints[j].place];
-    v.add(mesh.bodies[joint.body], D,
-          GivenVelocity(*given, material_point(system, state, joint.beam, s)).value);
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+    const Rider& rider = model.riders[j];
+    const std::optional<BeamVelocity>& given = model.beam_of(rider).velocity;
+    if (!given || mesh.riders[j].node >= 0 || mesh.riders[j].place < 0) continue;
+    const double s = state.q[mesh.riders[j].place];
+    v.add(mesh.bodies[rider.body], D,
+          GivenVelocity(*given, material_point(system, state, rider.beam, s)).value);
   }
   return v.means();
 }
@@ -140,22 +140,22 @@ void start_moving(const BeamSystem& system, State& state) {
   state.v.setZero();
   for (std::size_t body = 0; body < model.bodies.size(); ++body)
     state.v.segment(mesh.bodies[body], D) = model.bodies[body].velocity.head(D);
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-    const MeshJoint& at = mesh.joints[j];
-    if (mesh.plan.modes[j] == JointMode::free) continue;
-    const SlidingJoint& joint = model.joints[j];
-    const double speed = joint.motion ? joint.motion->at(state.t).speed : joint.speed;
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+    const MeshRider& at = mesh.riders[j];
+    if (mesh.plan.modes[j] == Carried::free) continue;
+    const Rider& rider = model.riders[j];
+    const double speed = rider.motion ? rider.motion->at(state.t).speed : rider.speed;
     const double s = state.q[at.place];
-    const int first = mesh.first_span[joint.beam], end = mesh.first_span[joint.beam + 1];
-    const Eigen::VectorXd velocity = speed * point_ahead(system, state, joint.beam, s, speed).rs.head(D);
-    state.v.segment(mesh.bodies[joint.body], D) = velocity;
+    const int first = mesh.first_span[rider.beam], end = mesh.first_span[rider.beam + 1];
+    const Eigen::VectorXd velocity = speed * point_ahead(system, state, rider.beam, s, speed).rs.head(D);
+    state.v.segment(mesh.bodies[rider.body], D) = velocity;
     state.v[at.place] = speed;
     if (at.node < 0) continue;
     const int index = first + at.node;
     const MaterialPoint<3> right = material_point_in(system, state, index, s);
     // The material is at rest, so the slopes at the moving node change by what the node meets.
     const MaterialPoint<3> left = material_point_in(system, state, (index > first ? index : end) - 1, s);
-    const MeshNode& node = mesh.nodes[joint.beam][at.node];
+    const MeshNode& node = mesh.nodes[rider.beam][at.node];
     state.v.segment(node.r, D) = velocity;
     const bool shared = node.slope_left == node.slope_right;
     state.v.segment(node.slope_left, D) =

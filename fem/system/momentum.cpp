@@ -90,14 +90,14 @@ class VelocityField {
   std::optional<Spins> spins_;
 };
 
-// The places between which an element of a mesh is integrated in parts: it ends at joints where these are.
+// The places between which an element of a mesh is integrated in parts: it ends at riders where these are.
 template <int D>
 std::vector<double> parts_of(const MeshElement<D>& e, const Mesh& mesh, const Mesh& old, const State& state) {
   const ReferenceCurve& curve = e.element.curve();
   const MeshSpan& span = *e.span;
-  const auto joint_at = [&](const MeshNode& node) { return state.q[old.joints[node.joint].place]; };
-  std::vector<double> parts{span.place_a >= 0 ? joint_at(mesh.node_a(span)) + span.shift_a : span.s_a,
-                            span.place_b >= 0 ? joint_at(mesh.node_b(span)) + span.shift_b : span.s_b};
+  const auto rider_at = [&](const MeshNode& node) { return state.q[old.riders[node.rider].place]; };
+  std::vector<double> parts{span.place_a >= 0 ? rider_at(mesh.node_a(span)) + span.shift_a : span.s_a,
+                            span.place_b >= 0 ? rider_at(mesh.node_b(span)) + span.shift_b : span.s_b};
   const auto add = [&](double place) {
     const double s = curve.unrolled(place, (span.s_a + span.s_b) / 2);
     if (s > parts[0] && s < parts[1]) parts.push_back(s);
@@ -126,7 +126,7 @@ void for_each_roll(const BeamSystem& system, Visit&& visit) {
   for (const BoundForce<3>& force : assembly->forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.joint(); }) visit(f, assembly->beams());
+          if constexpr (requires { f.rider(); }) visit(f, assembly->beams());
         },
         force);
 }
@@ -139,9 +139,9 @@ BodyMotions body_motions(const BeamSystem& system, const State& state) {
     motions.velocities.emplace_back(Eigen::Vector3d::Zero());
     motions.velocities.back().head(system.dimension()) = state.v.segment(r, system.dimension());
   }
-  motions.spins.assign(system.model().joints.size(), 0);
+  motions.spins.assign(system.model().riders.size(), 0);
   for_each_roll(system, [&](const auto& roll, const MeshedBeams<3>& at) {
-    motions.spins[roll.joint()] = roll.spin(at, state);
+    motions.spins[roll.rider()] = roll.spin(at, state);
   });
   return motions;
 }
@@ -225,7 +225,7 @@ Eigen::VectorXd CarriedMomentum::on(const State& state) const {
           }
       });
   for_each_roll(*to_, [&](const auto& roll, const MeshedBeams<3>& at) {
-    roll.add_momentum(at, state, bodies_.spins[roll.joint()], p);
+    roll.add_momentum(at, state, bodies_.spins[roll.rider()], p);
   });
   return p;
 }

@@ -6,7 +6,7 @@
 
 namespace nurbeam {
 
-/// Velocities of all bodies (3 each) [m/s], and per joint the spin of a body that rolls with a section
+/// Velocities of all bodies (3 each) [m/s], and per rider the spin of a body that rolls with a section
 /// [rad/s].
 struct BodyMotions {
   std::vector<Eigen::Vector3d> velocities;

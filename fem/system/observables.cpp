@@ -88,7 +88,7 @@ double lost_energy(const BeamSystem& system, const State& from, const State& to)
       });
 }
 
-std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int joint) {
+std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int rider) {
   std::optional<FrictionForce> found;
   if (state.memory.size() == 0) return found;
   with_assembly(system, [&](const auto& a) {
@@ -96,7 +96,7 @@ std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const St
       std::visit(
           [&](const auto& f) {
             if constexpr (requires { f.sliding_joint(); })
-              if (f.sliding_joint() == joint) found = f.friction(a.beams(), state);
+              if (f.sliding_joint() == rider) found = f.friction(a.beams(), state);
           },
           force);
   });
@@ -109,19 +109,19 @@ Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, in
   return vector;
 }
 
-Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint) {
+Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int rider) {
   const Mesh& mesh = system.mesh();
-  if (mesh.plan.modes[joint] == JointMode::free) return Eigen::Vector3d::Zero();
-  const int body = system.model().joints[joint].body;
+  if (mesh.plan.modes[rider] == Carried::free) return Eigen::Vector3d::Zero();
+  const int body = system.model().riders[rider].body;
   const Eigen::Vector3d given = with_assembly(
       system, [&]<int D>(const Assembly<D>& a) { return widened<D>(a.force_on_body(body, state)); });
   const Eigen::Vector3d acceleration = vector_at(system, state.a, mesh.bodies[body]);
   return system.model().bodies[body].mass * (acceleration - system.model().gravity) - given;
 }
 
-std::optional<int> row_of_place(const BeamSystem& system, int joint) {
+std::optional<int> row_of_place(const BeamSystem& system, int rider) {
   std::optional<int> found;
-  const int place = system.mesh().joints[joint].place;
+  const int place = system.mesh().riders[rider].place;
   with_assembly(system, [&](const auto& a) {
     a.for_each_constraint([&](const auto& c, const auto& rows) {
       if constexpr (requires { c.place(); })
@@ -133,20 +133,20 @@ std::optional<int> row_of_place(const BeamSystem& system, int joint) {
 
 namespace {
 
-// Of the s of a joint in the distance that a stop keeps; 0 where it is not about that joint.
-double weight_in_stop(const Stop& stop, int joint) {
-  if (stop.joint == joint) return stop.weight_of_joint();
-  return stop.other == joint ? stop.weight_of_other() : 0;
+// Of the s of a rider in the distance that a stop keeps; 0 where it is not about that rider.
+double weight_in_stop(const Stop& stop, int rider) {
+  if (stop.rider == rider) return stop.weight_of_rider();
+  return stop.other == rider ? stop.weight_of_other() : 0;
 }
 
 }  // namespace
 
-double holding_force(const BeamSystem& system, const State& state, int joint) {
-  if (const std::optional<int> row = row_of_place(system, joint)) return -state.lambda[*row];
+double holding_force(const BeamSystem& system, const State& state, int rider) {
+  if (const std::optional<int> row = row_of_place(system, rider)) return -state.lambda[*row];
   const std::vector<Stop>& stops = system.model().stops;
   double force = 0;
   for (std::size_t i = 0; i < stops.size(); ++i) {
-    const double weight = weight_in_stop(stops[i], joint);
+    const double weight = weight_in_stop(stops[i], rider);
     if (weight != 0) force += weight * contact_force(system, state, static_cast<int>(i));
   }
   return force;
@@ -187,7 +187,7 @@ std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const St
   const Mesh& mesh = system.mesh();
   std::array<Eigen::Vector3d, 2> places;
   for (const int i : {0, 1}) {
-    const ConnectorEnd& end = described.ends[i];
+    const Grip& end = described.ends[i];
     if (end.is_point())
       places[i] = end.point;
     else if (end.body >= 0)
@@ -210,13 +210,13 @@ double contact_force(const BeamSystem& system, const State& state, int stop) {
   return force;
 }
 
-std::optional<double> place(const BeamSystem& system, const State& state, int joint) {
-  const int dof = system.mesh().joints[joint].place;
+std::optional<double> place(const BeamSystem& system, const State& state, int rider) {
+  const int dof = system.mesh().riders[rider].place;
   return dof >= 0 ? std::optional<double>(state.q[dof]) : std::nullopt;
 }
 
-double place_rate(const BeamSystem& system, const State& state, int joint) {
-  const int dof = system.mesh().joints[joint].place;
+double place_rate(const BeamSystem& system, const State& state, int rider) {
+  const int dof = system.mesh().riders[rider].place;
   return dof >= 0 ? state.v[dof] : 0;
 }
 

@@ -42,27 +42,27 @@ Eigen::Vector3d vector_at(const BeamSystem& system, const Eigen::VectorXd& y, in
 /// Deformed length of a beam [m].
 double beam_length(const BeamSystem& system, const State& state, int beam);
 
-/// Force of the beams on the body of a joint, m (a - g) less what all else gives to it [N].
-Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int joint);
-/// The row of the multiplier of a held or prescribed joint; empty where its place is free.
-std::optional<int> row_of_place(const BeamSystem& system, int joint);
-/// The force along the beam [N] that keeps a joint in its place: the negative of that multiplier, or what the
+/// Force of the beams on the body of a rider, m (a - g) less what all else gives to it [N].
+Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int rider);
+/// The row of the multiplier of a held or prescribed rider; empty where its place is free.
+std::optional<int> row_of_place(const BeamSystem& system, int rider);
+/// The force along the beam [N] that keeps a rider in its place: the negative of that multiplier, or what the
 /// hard stops against which it rests give it.
-double holding_force(const BeamSystem& system, const State& state, int joint);
+double holding_force(const BeamSystem& system, const State& state, int rider);
 /// The force of a hard stop on the body that rests against it, or between two that rest against each other
 /// [N]; 0 where none does.
 double contact_force(const BeamSystem& system, const State& state, int stop);
-/// What the friction of a joint's body does; empty where it has none, has left or is held.
-std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int joint);
+/// What the friction of a rider's body does; empty where it has none, has left or is held.
+std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int rider);
 /// Length of a connector [m], or its part along its direction, and its pull [N].
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector);
 /// The row of the multiplier of a rod; empty where a connector is none.
 std::optional<int> row_of_rod(const BeamSystem& system, int connector);
 /// Where the ends of a connector are [m].
 std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector);
-/// s of a joint's body [m], on a ring with the turns since the start; empty when it flies free.
-std::optional<double> place(const BeamSystem& system, const State& state, int joint);
-double place_rate(const BeamSystem& system, const State& state, int joint);
+/// s of a rider's body [m], on a ring with the turns since the start; empty when it flies free.
+std::optional<double> place(const BeamSystem& system, const State& state, int rider);
+double place_rate(const BeamSystem& system, const State& state, int rider);
 
 /// What a support gives to its beam, or the second of two joined beams to the first: [N], [N m].
 struct Reaction {

@@ -8,7 +8,7 @@ namespace nurbeam {
 
 namespace {
 
-bool is_same(const MeshNode& a, const MeshNode& b) { return a.home == b.home && a.joint == b.joint; }
+bool is_same(const MeshNode& a, const MeshNode& b) { return a.home == b.home && a.rider == b.rider; }
 
 // The spans of one beam by the nodes where they begin, which are asked for in order along the beam.
 class SpansByStart {
@@ -28,7 +28,7 @@ class SpansByStart {
     return is_same(mesh_.node_a(mesh_.spans[span]), a) && is_same(mesh_.node_b(mesh_.spans[span]), b);
   }
   int search(const MeshNode& a, const MeshNode& b) {
-    const int node = a.home >= 0 ? at_home(a.home) : mesh_.joints[a.joint].node;
+    const int node = a.home >= 0 ? at_home(a.home) : mesh_.riders[a.rider].node;
     const int span = node < 0 ? -1 : mesh_.first_span[beam_] + node;
     return span >= 0 && span < mesh_.first_span[beam_ + 1] && is_same(mesh_.node_b(mesh_.spans[span]), b)
                ? span

@@ -17,7 +17,7 @@ std::vector<int> kept_elements(const BeamSystem& from, const BeamSystem& to);
 
 /// Unknowns of `to` in whose rows equations that `from` satisfies may be open, its rates carried over: those
 /// of elements that `from` has not. Constraints that nodes near there open by their moves are near too. Empty
-/// where they may be in all rows: with torsion, or where joints or stops have other modes.
+/// where they may be in all rows: with torsion, or where riders or stops have other modes.
 std::vector<int> changed_unknowns(const BeamSystem& from, const BeamSystem& to);
 
 }  // namespace nurbeam

@@ -41,7 +41,7 @@ struct BenchRun {
 BenchRun run_example(int elements, double step, WeightRule weights, bool as_point = false) {
   BeamModel model = verification::falling_beam(elements);
   model.beams[0].weights = weights;
-  model.joints[0].as_point = as_point;
+  model.riders[0].as_point = as_point;
   SimulationOptions options;
   options.step = step;
   options.end_time = end_time;

@@ -54,8 +54,8 @@ double step_for(int elements) { return 1e-3 / std::max(10, elements); }
 
 BeamModel beam_with_slider(int elements) {
   BeamModel model = verification::falling_beam(elements);
-  model.joints[0].s = 0.5 + 0.25 / elements;
-  model.joints[0].speed = 1.0 / elements / (steps_per_element * step_for(elements));
+  model.riders[0].s = 0.5 + 0.25 / elements;
+  model.riders[0].speed = 1.0 / elements / (steps_per_element * step_for(elements));
   return model;
 }
 

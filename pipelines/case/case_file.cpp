@@ -140,6 +140,18 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, F
           .as_point = text(json, "carried_as") == "point"};
 }
 
+CaseEyelet read_eyelet(const Json& json, const std::string& path, Findings&) {
+  CaseEyelet eyelet{.path = path,
+                    .name = text(json, "name"),
+                    .beam = text(json, "beam"),
+                    .at = read_place(json),
+                    .continuous_slope = text(json, "slope") == "continuous",
+                    .rest = text(json, "equilibrium") == "held" ? StaticPlace::held : StaticPlace::free,
+                    .leave_at_end = text(json, "at_beam_end") != "stop"};
+  if (has(json, "position")) eyelet.position = vector(json, "position");
+  return eyelet;
+}
+
 CaseStop read_stop(const Json& json, const std::string& path, Findings& findings) {
   CaseStop stop{.path = path,
                 .beam = text(json, "beam"),
@@ -244,6 +256,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   };
   read_all("supports", result.supports, read_support);
   read_all("sliding_joints", result.sliding_joints, read_sliding_joint);
+  read_all("eyelets", result.eyelets, read_eyelet);
   read_all("stops", result.stops, read_stop);
   read_all("joints", result.joints, read_beam_joint);
   read_all("connectors", result.connectors, read_connector);

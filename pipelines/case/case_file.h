@@ -193,6 +193,17 @@ struct CaseSlidingJoint {
   bool as_point = false;               ///< the mesh stays as it is where the body is
 };
 
+/// A ring in space through which a beam runs.
+struct CaseEyelet {
+  std::string path;
+  std::string name, beam;
+  Place at;
+  std::optional<Eigen::Vector3d> position = {};  ///< [m]; else where the beam is drawn
+  bool continuous_slope = false;
+  StaticPlace rest = StaticPlace::free;
+  bool leave_at_end = true;  ///< false: stop
+};
+
 /// What keeps bodies on one side of a place of a beam, or two bodies apart.
 struct CaseStop {
   enum class Side { both, before, after };
@@ -310,6 +321,7 @@ struct CaseFile {
   std::vector<CaseLoad> loads;
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
+  std::vector<CaseEyelet> eyelets;
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseConnector> connectors;

@@ -370,6 +370,21 @@ Shape sliding_joint() {
       {{{"speed", "motion", "release"}, false}});
 }
 
+Shape eyelet() {
+  return object(
+      {{"name", name(), "heads the columns of its force and of the place that is in it", required},
+       {"beam", name(), "the beam that runs through it", required},
+       {"at", place(), "which place of the beam is in it at the start", required},
+       {"position", point(),
+        "where it stands, a ring without mass and friction; where the beam is drawn there when omitted"},
+       {"slope", choice({"continuous", "discontinuous"}),
+        "whether the beam may have a kink in it; discontinuous when omitted"},
+       {"equilibrium", choice({"held", "free"}),
+        "where statics find the beam: with the place `at` in it, or free to run through it; free when omitted"},
+       {"at_beam_end", choice({"leave", "stop"}),
+        "what happens when the beam's end comes to it; leave when omitted"}});
+}
+
 Shape stop() {
   return object(
       {{"beam", name(), "the beam on which bodies meet it", required},
@@ -560,6 +575,7 @@ const Shape& case_keys() {
        {"loads", short_array(load()), "forces and moments"},
        {"supports", array(support()), "where beams are held"},
        {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
+       {"eyelets", array(eyelet()), "fixed rings that beams run through"},
        {"stops", array(stop()), "what sliding bodies come up against"},
        {"joints", array(beam_joint()), "which beams are joined to each other"},
        {"connectors", short_array(connector()), "springs, ropes and rods between bodies, beams and points"},

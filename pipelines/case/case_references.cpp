@@ -41,8 +41,8 @@ void check_names(const Json& json, Findings& findings) {
   auto columns = collect(json, "bodies", "");  // these head columns of the same table
   const auto probes = collect(part(json, "output"), "probes", "output");
   const auto supports = collect(json, "supports", ""), joints = collect(json, "joints", "");
-  const auto connectors = collect(json, "connectors", "");
-  for (const auto& more : {probes, supports, joints, connectors})
+  const auto connectors = collect(json, "connectors", ""), eyelets = collect(json, "eyelets", "");
+  for (const auto& more : {probes, supports, joints, connectors, eyelets})
     columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
   // The columns of a vector belong to the body: "B.joint_force.x".

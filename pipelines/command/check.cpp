@@ -99,7 +99,7 @@ void print_sections(std::ostream& out, const BuiltModel& built) {
 }
 
 void print_joints(std::ostream& out, const BeamModel& model) {
-  for (const SlidingJoint& joint : model.joints)
+  for (const Rider& joint : model.riders)
     out << "joint     " << model.bodies[joint.body].name << " ("
         << text_of(model.bodies[joint.body].mass, size_digits) << " kg) on " << model.beams[joint.beam].name
         << " at " << place(joint.s) << '\n';
@@ -111,7 +111,7 @@ void print_joints(std::ostream& out, const BeamModel& model) {
 }
 
 void print_connectors(std::ostream& out, const BeamModel& model) {
-  const auto end_text = [&](const ConnectorEnd& end) -> std::string {
+  const auto end_text = [&](const Grip& end) -> std::string {
     if (end.beam >= 0) return model.beams[end.beam].name + " at " + place(end.s);
     return end.body >= 0 ? model.bodies[end.body].name : "a point";
   };

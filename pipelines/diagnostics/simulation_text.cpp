@@ -45,7 +45,7 @@ std::string reason_of(StaticStatus status) {
 std::string places_text(const std::vector<BodyPlace>& bodies, const BeamModel& model) {
   std::string text;
   for (const BodyPlace& body : bodies) {
-    const SlidingJoint& joint = model.joints[body.joint];
+    const Rider& joint = model.riders[body.rider];
     text += "; \"" + model.body_of(joint).name + "\" is at s = " + text_of(body.s, 8) + " m of beam \"" +
             model.beam_of(joint).name + "\" with ds/dt = " + text_of(body.rate, 8) + " m/s";
   }
@@ -54,8 +54,8 @@ std::string places_text(const std::vector<BodyPlace>& bodies, const BeamModel& m
 
 // What may help where a body hangs in a slack beam.
 std::string slope_hint(const BeamModel& model) {
-  const bool bends = std::any_of(model.joints.begin(), model.joints.end(),
-                                 [](const SlidingJoint& joint) { return joint.continuous_slope; });
+  const bool bends = std::any_of(model.riders.begin(), model.riders.end(),
+                                 [](const Rider& joint) { return joint.continuous_slope; });
   return bends
              ? "; for a cable that hardly resists bending, give its sliding joint \"slope\": \"discontinuous\""
              : "";
@@ -63,9 +63,9 @@ std::string slope_hint(const BeamModel& model) {
 
 // On a beam that deforms bodies that come near each other are as good as met.
 std::string meeting_text(const Failure& failure, const BeamModel& model) {
-  const SlidingJoint& joint = model.joints[failure.joint];
+  const Rider& joint = model.riders[failure.rider];
   const std::string bodies = "sliding bodies \"" + model.body_of(joint).name + "\" and \"" +
-                             model.body_of(model.joints[failure.other]).name + "\" ",
+                             model.body_of(model.riders[failure.other]).name + "\" ",
                     where = " on beam \"" + model.beam_of(joint).name +
                             "\" at t = " + text_of(failure.time, 8) + " s";
   if (model.beam_of(joint).rigid) return bodies + "meet" + where + "; give a stop that keeps them apart";
@@ -102,11 +102,11 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the step from t = " + time + " failed, and shorter ones too: " + reason_of(failure.step) +
              places + shorter_step(failure, step_hint(failure.step));
     case Failure::Kind::endless_events:
-      return "at t = " + time + " \"" + model.body_of(model.joints[failure.joint]).name +
+      return "at t = " + time + " \"" + model.body_of(model.riders[failure.rider]).name +
              "\" hits stops, or sticks and slides, again and again at one moment" + places +
              "; another \"restitution\" or friction \"coefficient\", or a shorter \"step\", may help";
     case Failure::Kind::impact:
-      return "the impact of \"" + model.body_of(model.joints[failure.joint]).name +
+      return "the impact of \"" + model.body_of(model.riders[failure.rider]).name +
              "\" at the end is singular";
     case Failure::Kind::projection:
       return "the motion cannot be carried over to another mesh at t = " + time + places +
@@ -115,10 +115,10 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "length control finds no mesh at t = " + time + places;
     case Failure::Kind::mesh_energy:
       return "at t = " + time + " the mesh would have to change beside \"" +
-             model.body_of(model.joints[failure.joint]).name + "\", and its energy by " +
+             model.body_of(model.riders[failure.rider]).name + "\", and its energy by " +
              text_of(failure.energy, 3) + " J, more than a thousandth of what moves" + places +
              "; take more elements" +
-             (model.joints[failure.joint].continuous_slope
+             (model.riders[failure.rider].continuous_slope
                   ? ", \"carried_as\": \"point\", or, for a cable that hardly resists bending, \"slope\": \"discontinuous\""
                   : ", or \"slope\": \"continuous\": a beam that resists bending cannot give up a kink");
     case Failure::Kind::energy:
@@ -144,7 +144,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     case Failure::Kind::eigenvalues:
       return "the eigenvalues are not found; a smaller \"count\" may help";
     case Failure::Kind::leaves_beam: {
-      const SlidingJoint& joint = model.joints[failure.joint];
+      const Rider& joint = model.riders[failure.rider];
       return "there is no equilibrium with \"" + model.body_of(joint).name + "\" on beam \"" +
              model.beam_of(joint).name + "\": it slides off its free end" + places +
              "; give a stop there (\"stops\", or \"at_beam_end\": \"stop\" of its sliding joint), or hold it at its "

@@ -22,7 +22,7 @@ class Stops {
   // One that stands at s, for each body that comes to it.
   void stand_at(double s, const std::vector<int>& joints) {
     for (const int j : joints) {
-      const double start = model_.joints[j].s, same = same_place * curve_.length();
+      const double start = model_.riders[j].s, same = same_place * curve_.length();
       const bool below = start <= s;
       if (!curve_.closed()) check_side(j, start, s, same);
       if (at_end(j, s))
@@ -46,7 +46,7 @@ class Stops {
   }
 
   void between(int a, int b) {
-    const double distance = model_.joints[b].s - model_.joints[a].s, L = curve_.length();
+    const double distance = model_.riders[b].s - model_.riders[a].s, L = curve_.length();
     const double apart = std::abs(curve_.unrolled(distance, 0));
     const double least = least_gap();
     if (from_.gap < least)
@@ -66,7 +66,7 @@ class Stops {
 
  private:
   void refuse(const std::string& message) { findings_.error(from_.path + ".at", message); }
-  const std::string& name(int joint) const { return model_.body_of(model_.joints[joint]).name; }
+  const std::string& name(int joint) const { return model_.body_of(model_.riders[joint]).name; }
 
   // Bodies on a beam that deforms keep this far apart, and some more [m].
   double least_gap() const {
@@ -74,7 +74,7 @@ class Stops {
   }
 
   bool at_end(int joint, double s) const {
-    return !curve_.closed() && !model_.joints[joint].leave_at_end && (s == 0 || s == curve_.length());
+    return !curve_.closed() && !model_.riders[joint].leave_at_end && (s == 0 || s == curve_.length());
   }
 
   void check_side(int joint, double start, double s, double same) {
@@ -87,7 +87,7 @@ class Stops {
   }
 
   void check_drive(int joint) {
-    if (model_.joints[joint].motion && !from_.buffer)
+    if (model_.riders[joint].motion && !from_.buffer)
       findings_.error(from_.path,
                       "is hard, but the place of body " + in_quotes(name(joint)) +
                           " is prescribed by its \"motion\"; give a \"stiffness\", or leave it out "
@@ -96,7 +96,7 @@ class Stops {
 
   void add(int joint, double place, bool from_below) {
     check_drive(joint);
-    model_.stops.push_back({.joint = joint,
+    model_.stops.push_back({.rider = joint,
                             .place = place,
                             .from_below = from_below,
                             .restitution = from_.restitution,
@@ -105,7 +105,7 @@ class Stops {
   void pair(int a, int b, double gap) {
     for (const int joint : {a, b}) check_drive(joint);
     model_.stops.push_back(
-        {.joint = a, .other = b, .place = gap, .restitution = from_.restitution, .buffer = from_.buffer});
+        {.rider = a, .other = b, .place = gap, .restitution = from_.restitution, .buffer = from_.buffer});
   }
 
   const CaseStop& from_;
@@ -117,17 +117,17 @@ class Stops {
 
 // Between hard stops on both sides a body has some room.
 void check_room(const BeamModel& model, Findings& findings) {
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
     double least = -std::numeric_limits<double>::infinity(), most = -least;
     for (const Stop& stop : model.stops) {
-      if (stop.joint != j || stop.other >= 0 || stop.buffer) continue;
+      if (stop.rider != j || stop.other >= 0 || stop.buffer) continue;
       (stop.from_below ? most : least) =
           stop.from_below ? std::min(most, stop.place) : std::max(least, stop.place);
     }
-    const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
+    const ReferenceCurve& curve = model.beam_of(model.riders[j]).curve;
     if (most - least <= same_place * curve.length())
       findings.error("stops", "hard stops at s = " + text_of(least) + " m and " + text_of(most) +
-                                  " m leave body " + in_quotes(model.body_of(model.joints[j]).name) +
+                                  " m leave body " + in_quotes(model.body_of(model.riders[j]).name) +
                                   " no room; move one of them, leave it out, or give the body's joint a "
                                   "\"motion\" of speed 0");
   }
@@ -137,18 +137,18 @@ void check_room(const BeamModel& model, Findings& findings) {
 std::vector<int> stopped_joints(const CaseStop& stop, int beam, const BeamModel& model, Findings& findings) {
   std::vector<int> joints;
   const auto find = [&](const std::string& body) {
-    const auto found = std::find_if(model.joints.begin(), model.joints.end(), [&](const SlidingJoint& joint) {
+    const auto found = std::find_if(model.riders.begin(), model.riders.end(), [&](const Rider& joint) {
       return joint.beam == beam && model.body_of(joint).name == body;
     });
-    if (found != model.joints.end())
-      joints.push_back(static_cast<int>(found - model.joints.begin()));
+    if (found != model.riders.end())
+      joints.push_back(static_cast<int>(found - model.riders.begin()));
     else
       findings.error(stop.path + ".bodies",
                      "names " + in_quotes(body) + ", which does not slide on beam " + in_quotes(stop.beam));
   };
   for (const std::string& body : stop.bodies) find(body);
-  for (int j = 0; stop.bodies.empty() && j < static_cast<int>(model.joints.size()); ++j)
-    if (model.joints[j].beam == beam) joints.push_back(j);
+  for (int j = 0; stop.bodies.empty() && j < static_cast<int>(model.riders.size()); ++j)
+    if (model.riders[j].beam == beam) joints.push_back(j);
   return joints;
 }
 

@@ -22,6 +22,7 @@
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/drawn_bending.h"
+#include "pipelines/model/eyelets.h"
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/law_points.h"
 #include "pipelines/model/resolved_case.h"
@@ -70,6 +71,8 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
     if (body.position) forces.push_back(*body.position - origin);
     forces.push_back(body.velocity);
   }
+  for (const CaseEyelet& eyelet : resolved.eyelets)
+    if (eyelet.position) forces.push_back(*eyelet.position - origin);
   for (const CaseLaw& law : resolved.laws)
     if (law.spatial)
       for (int d = 0; d < 3; ++d) forces.emplace_back(Eigen::Vector3d::Unit(d));
@@ -535,6 +538,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.loads.resize(case_file.loads.size());
   add_loads(resolved, beams, built.frame, built.model, built.loads, findings);
   add_sliding_joints(resolved, beams, joined, built.frame, built.model, findings);
+  if (!findings.has_errors()) add_eyelets(resolved, beams, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};

@@ -52,8 +52,8 @@ struct BuiltModel {
   ModelFrame frame;
   std::vector<BeamSource> sources;  ///< per beam
   std::vector<Probe> probes;
-  std::vector<std::vector<CustomForce::Attachment>> laws = {};  ///< where each law of the case acts
-  std::vector<LawOfMotion> motions = {};                        ///< that functions prescribe
+  std::vector<std::vector<Grip>> laws = {};  ///< where each law of the case acts
+  std::vector<LawOfMotion> motions = {};     ///< that functions prescribe
   std::vector<std::vector<int>> loads = {};  ///< per load of the case: its forces, one for each of its beams
   std::optional<AdaptedMesh> adapted = {};   ///< where beams name a tolerance instead of a number of elements
   std::vector<std::filesystem::path> inputs;  ///< CAD files read

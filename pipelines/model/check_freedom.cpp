@@ -23,8 +23,8 @@ bool contains(const std::vector<int>& values, int value) {
 
 std::vector<int> joints_of(const BeamModel& model, int body) {
   std::vector<int> joints;
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
-    if (model.joints[j].body == body) joints.push_back(j);
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j)
+    if (model.riders[j].body == body) joints.push_back(j);
   return joints;
 }
 
@@ -44,7 +44,7 @@ class FreedomCheck {
   // With all sliding bodies held, as a search for rest does it, or as the motion starts. Whether nothing was
   // found.
   bool refuse_dependence(bool held) {
-    const BeamSystem system(model_, initial_plan(model_), std::vector<bool>(model_.joints.size(), held));
+    const BeamSystem system(model_, initial_plan(model_), std::vector<bool>(model_.riders.size(), held));
     const auto sets = dependent_constraints(system, drawn_state(system));
     for (const DependentConstraints& set : sets) refuse(system, set, held);
     return sets.empty();
@@ -54,7 +54,7 @@ class FreedomCheck {
   void refuse_idle_stops() {
     for (std::size_t i = 0; i < model_.stops.size(); ++i) {
       const Stop& stop = model_.stops[i];
-      const double length = model_.beam_of(model_.joints[stop.joint]).curve.length();
+      const double length = model_.beam_of(model_.riders[stop.rider]).curve.length();
       MeshPlan plan = initial_plan(model_);
       plan.closed.assign(model_.stops.size(), false);
       plan.closed[i] = !stop.buffer;
@@ -65,8 +65,8 @@ class FreedomCheck {
         continue;
       if (!dependent_constraints(system, drawn).empty())
         findings_.error("stops",
-                        "body " + in_quotes(name_of(stop.joint)) +
-                            " starts at a hard stop, at s = " + text_of(model_.joints[stop.joint].s) +
+                        "body " + in_quotes(name_of(stop.rider)) +
+                            " starts at a hard stop, at s = " + text_of(model_.riders[stop.rider].s) +
                             " m, where a rod keeps it anyway; leave the stop out of there");
     }
   }
@@ -91,7 +91,7 @@ class FreedomCheck {
   }
 
  private:
-  const std::string& name_of(int joint) const { return model_.body_of(model_.joints[joint]).name; }
+  const std::string& name_of(int joint) const { return model_.body_of(model_.riders[joint]).name; }
 
   void refuse(const BeamSystem& system, const DependentConstraints& set, bool held) {
     const std::string where = held ? "where an equilibrium is sought, with sliding bodies held, " : "";
@@ -118,10 +118,10 @@ class FreedomCheck {
     for (int i = 0; i < static_cast<int>(model_.connectors.size()); ++i)
       if (const auto row = row_of_rod(system, i); i != rod && row && contains(set.rows, *row))
         name("the rod " + in_quotes(model_.connectors[i].name));
-    for (int j = 0; j < static_cast<int>(model_.joints.size()); ++j)
+    for (int j = 0; j < static_cast<int>(model_.riders.size()); ++j)
       if (const auto row = row_of_place(system, j); row && contains(set.rows, *row))
         name("the place at which body " + in_quotes(name_of(j)) + " is " +
-             (model_.joints[j].motion ? "driven" : "held"));
+             (model_.riders[j].motion ? "driven" : "held"));
     return text.empty() ? text : text + ")";
   }
 

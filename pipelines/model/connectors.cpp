@@ -18,19 +18,18 @@ int body_index(const ResolvedCase& resolved, const std::string& name) {
   return static_cast<int>(found - resolved.bodies.begin());
 }
 
-ConnectorEnd end_of(const CaseConnectorEnd& from, const ResolvedCase& resolved,
-                    const std::vector<DrawnBeam>& beams, const BeamModel& model, const ModelFrame& frame,
-                    Findings& findings) {
-  if (from.point) return ConnectorEnd::at_point(frame.to_local(*from.point));
-  if (!from.body.empty()) return ConnectorEnd::on_body(body_index(resolved, from.body));
+Grip end_of(const CaseConnectorEnd& from, const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
+            const BeamModel& model, const ModelFrame& frame, Findings& findings) {
+  if (from.point) return Grip::at_point(frame.to_local(*from.point));
+  if (!from.body.empty()) return Grip::on_body(body_index(resolved, from.body));
   const int b = resolved.beam_index(from.beam);
   const double s = place_on(beams[b], from.at, from.path, findings);
-  if (model.beams[b].rigid) return ConnectorEnd::at_point(beams[b].curve.position(s));
-  return ConnectorEnd::on_beam(b, beams[b].material_coordinate(s));
+  if (model.beams[b].rigid) return Grip::at_point(beams[b].curve.position(s));
+  return Grip::on_beam(b, beams[b].material_coordinate(s));
 }
 
 // Whether a support keeps the end where it is drawn.
-bool is_held(const ConnectorEnd& end, const BeamModel& model) {
+bool is_held(const Grip& end, const BeamModel& model) {
   return std::any_of(
       model.constraints.begin(), model.constraints.end(),
       [&](const Constraint& constraint) {
@@ -63,7 +62,7 @@ void check_drawing(const CaseConnector& from, const Connector& connector, double
 }
 
 // The mass of an end is that of its body, or a lump of its beam.
-void add_mass(double mass, const ConnectorEnd& end, BeamModel& model) {
+void add_mass(double mass, const Grip& end, BeamModel& model) {
   if (!(mass > 0)) return;
   if (end.body >= 0)
     model.bodies[end.body].mass += mass;

@@ -6,9 +6,9 @@
 
 namespace nurbeam {
 
-std::vector<CustomForce::Attachment> law_points(const CaseLaw& law, const ResolvedCase& resolved,
-                                                const std::vector<DrawnBeam>& beams, Findings& findings) {
-  std::vector<CustomForce::Attachment> points;
+std::vector<Grip> law_points(const CaseLaw& law, const ResolvedCase& resolved,
+                             const std::vector<DrawnBeam>& beams, Findings& findings) {
+  std::vector<Grip> points;
   for (const CaseLawPoint& point : law.points) {
     const bool on_body = !point.body.empty();
     const std::vector<std::string> known = on_body ? names_of(resolved.bodies) : names_of(resolved.beams);
@@ -20,10 +20,10 @@ std::vector<CustomForce::Attachment> law_points(const CaseLaw& law, const Resolv
                      std::string("there is no ") + (on_body ? "body " : "beam ") + in_quotes(name) +
                          known_names(name, known));
     else if (on_body)
-      points.push_back(CustomForce::Attachment::to_body(i));
+      points.push_back(Grip::on_body(i));
     else
-      points.push_back(CustomForce::Attachment::to_beam(
-          i, beams[i].material_coordinate(place_on(beams[i], point.at, point.path, findings))));
+      points.push_back(
+          Grip::on_beam(i, beams[i].material_coordinate(place_on(beams[i], point.at, point.path, findings))));
   }
   return points;
 }

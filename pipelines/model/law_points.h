@@ -10,8 +10,8 @@ namespace nurbeam {
 
 /// The points of a law, each on one body or beam of the model; with errors among the findings there are
 /// fewer.
-std::vector<CustomForce::Attachment> law_points(const CaseLaw& law, const ResolvedCase& resolved,
-                                                const std::vector<DrawnBeam>& beams, Findings& findings);
+std::vector<Grip> law_points(const CaseLaw& law, const ResolvedCase& resolved,
+                             const std::vector<DrawnBeam>& beams, Findings& findings);
 
 /// The motions that functions prescribe, of a model that has its supports and sliding joints.
 std::vector<LawOfMotion> laws_of_motion(const ResolvedCase& resolved, const BeamModel& model);

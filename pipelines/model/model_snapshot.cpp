@@ -64,7 +64,7 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
   SnapshotNames names;
   for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
   for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
-  for (const SlidingJoint& joint : built.model.joints) names.friction = names.friction || joint.friction;
+  for (const Rider& joint : built.model.riders) names.friction = names.friction || joint.friction;
   names.springs = names.friction;
   for (const Stop& stop : built.model.stops) names.springs = names.springs || stop.buffer;
   names.springs = names.springs || !built.model.connectors.empty();

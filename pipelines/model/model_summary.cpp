@@ -100,7 +100,7 @@ Json to_json(const Support& support, const BuiltModel& built) {
           {"outward", to_json(built.frame.direction_to_world(outward(built.model, support)))}};
 }
 
-Json to_json(const SlidingJoint& joint, const BeamModel& model) {
+Json to_json(const Rider& joint, const BeamModel& model) {
   return {{"body", model.bodies[joint.body].name},
           {"beam", model.beams[joint.beam].name},
           {"s at start [m]", joint.s},
@@ -127,7 +127,7 @@ std::string name_of(ConnectorType type) {
   return {};
 }
 
-Json to_json(const ConnectorEnd& end, const BuiltModel& built) {
+Json to_json(const Grip& end, const BuiltModel& built) {
   if (end.beam >= 0) return {{"beam", built.model.beams[end.beam].name}, {"s [m]", end.s}};
   if (end.body >= 0) return {{"body", built.model.bodies[end.body].name}};
   return {{"point [m]", to_json(built.frame.to_world(end.point))}};
@@ -228,7 +228,7 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
           if constexpr (requires { to_json(c, built); }) json["supports"].push_back(to_json(c, built));
         },
         constraint);
-  for (const SlidingJoint& joint : model.joints) json["joints"].push_back(to_json(joint, model));
+  for (const Rider& joint : model.riders) json["joints"].push_back(to_json(joint, model));
   for (const Connector& connector : model.connectors) json["connectors"].push_back(to_json(connector, built));
   for (const Force& force : model.forces)
     std::visit(

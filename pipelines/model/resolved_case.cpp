@@ -147,6 +147,11 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
       findings.error(joint.path + ".beam",
                      "is " + in_quotes(joint.beam) +
                          ", which is several beams; choose one: " + quoted_list(names.at(joint.beam)));
+  for (const CaseEyelet& eyelet : resolved.eyelets)
+    if (known(eyelet.beam, eyelet.path) && names.at(eyelet.beam).size() > 1)
+      findings.error(eyelet.path + ".beam",
+                     "is " + in_quotes(eyelet.beam) +
+                         ", which is several beams; choose one: " + quoted_list(names.at(eyelet.beam)));
   for (const CaseStop& stop : resolved.stops)
     if (known(stop.beam, stop.path) && names.at(stop.beam).size() > 1)
       findings.error(stop.path + ".beam",
@@ -180,6 +185,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .loads = case_file.loads,
                         .supports = case_file.supports,
                         .sliding_joints = case_file.sliding_joints,
+                        .eyelets = case_file.eyelets,
                         .stops = case_file.stops,
                         .joints = case_file.joints,
                         .connectors = case_file.connectors,
@@ -217,9 +223,9 @@ int ResolvedCase::beam_index(const std::string& name) const {
 }
 
 int ResolvedCase::sliding_bodies(const std::string& name) const {
-  return static_cast<int>(std::count_if(
-      sliding_joints.begin(), sliding_joints.end(),
-      [&](const CaseSlidingJoint& joint) { return joint.beam == name; }));
+  const auto on_it = [&](const auto& rider) { return rider.beam == name; };
+  return static_cast<int>(std::ranges::count_if(sliding_joints, on_it) +
+                          std::ranges::count_if(eyelets, on_it));
 }
 
 }  // namespace nurbeam

@@ -21,6 +21,7 @@ struct ResolvedCase {
   std::vector<int> load_numbers = {};  ///< per load: which of the case's it is
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
+  std::vector<CaseEyelet> eyelets = {};
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseConnector> connectors;
@@ -30,7 +31,7 @@ struct ResolvedCase {
 
   /// The number of the beam of that name, which the case has.
   int beam_index(const std::string& name) const;
-  /// How many bodies slide on the beam of that name.
+  /// How many bodies and eyelets slide on the beam of that name.
   int sliding_bodies(const std::string& name) const;
 };
 

@@ -72,7 +72,7 @@ void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurv
 
 // A discontinuous slope is a hinge that moves with the body. Where bending reaches further along the beam
 // than an element, sqrt(EI/T) > l, the beam resists the kink.
-void warn_of_stiff_hinge(const CaseSlidingJoint& from, const SlidingJoint& joint, const BeamModel& model,
+void warn_of_stiff_hinge(const CaseSlidingJoint& from, const Rider& joint, const BeamModel& model,
                          Findings& findings) {
   const Beam& beam = model.beam_of(joint);
   const double mass = model.bodies[joint.body].mass + beam.properties.mass_per_length * beam.curve.length();
@@ -116,7 +116,7 @@ void check_release(const CaseSlidingJoint& joint, const CaseAnalysis& analysis, 
 }
 
 // Nothing on a beam runs faster than the waves along it.
-void warn_of_speed(const CaseSlidingJoint& from, const SlidingJoint& joint, const BeamModel& model,
+void warn_of_speed(const CaseSlidingJoint& from, const Rider& joint, const BeamModel& model,
                    Findings& findings) {
   if (model.beam_of(joint).rigid) return;
   const BeamProperties& p = model.beam_of(joint).properties;
@@ -136,9 +136,9 @@ void warn_of_speed(const CaseSlidingJoint& from, const SlidingJoint& joint, cons
 
 // Two bodies on one beam must be apart: contact between them is not modelled.
 void check_apart(const std::vector<CaseSlidingJoint>& from, const BeamModel& model, Findings& findings) {
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
+  for (std::size_t j = 0; j < model.riders.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
-      const SlidingJoint &a = model.joints[i], &b = model.joints[j];
+      const Rider &a = model.riders[i], &b = model.riders[j];
       if (a.beam != b.beam) continue;
       const Beam& beam = model.beam_of(b);
       const double least =
@@ -155,9 +155,9 @@ void check_apart(const std::vector<CaseSlidingJoint>& from, const BeamModel& mod
 // The beams that one body slides on cross where it starts.
 void check_together(const std::vector<CaseSlidingJoint>& from, const BeamModel& model, Findings& findings) {
   constexpr double apart = 1e-6;  // of the length
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
+  for (std::size_t j = 0; j < model.riders.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
-      const SlidingJoint &a = model.joints[i], &b = model.joints[j];
+      const Rider &a = model.riders[i], &b = model.riders[j];
       if (a.body != b.body) continue;
       const ReferenceCurve &one = model.beam_of(a).curve, &other = model.beam_of(b).curve;
       const double distance = (one.position(a.s) - other.position(b.s)).norm();
@@ -169,7 +169,7 @@ void check_together(const std::vector<CaseSlidingJoint>& from, const BeamModel& 
 }
 
 // Of the beam's material as it starts.
-Eigen::Vector3d material_velocity(const SlidingJoint& joint, const BeamModel& model) {
+Eigen::Vector3d material_velocity(const Rider& joint, const BeamModel& model) {
   const Beam& beam = model.beam_of(joint);
   if (!beam.velocity) return Eigen::Vector3d::Zero();
   const BeamVelocity& v = *beam.velocity;
@@ -178,7 +178,7 @@ Eigen::Vector3d material_velocity(const SlidingJoint& joint, const BeamModel& mo
 }
 
 // Of a joint's body as the joint starts it, with what it is driven at.
-Eigen::Vector3d body_velocity(const SlidingJoint& joint, const BeamModel& model) {
+Eigen::Vector3d body_velocity(const Rider& joint, const BeamModel& model) {
   const double speed = joint.motion ? joint.motion->at(0).speed : joint.speed;
   return material_velocity(joint, model) + speed * model.beam_of(joint).curve.tangent(joint.s);
 }
@@ -197,20 +197,20 @@ std::string velocity_text(const Eigen::Vector3d& local, const ModelFrame& frame)
 void share_speeds(const std::vector<CaseSlidingJoint>& from, const ModelFrame& frame, BeamModel& model,
                   Findings& findings) {
   const auto share = [&](std::size_t i, std::size_t j) {
-    SlidingJoint& joint = model.joints[j];
-    const Eigen::Vector3d along = body_velocity(model.joints[i], model) - material_velocity(joint, model);
+    Rider& joint = model.riders[j];
+    const Eigen::Vector3d along = body_velocity(model.riders[i], model) - material_velocity(joint, model);
     if (says_speed(from[i]) && !says_speed(from[j]))
       joint.speed = along.dot(model.beam_of(joint).curve.tangent(joint.s));
   };
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
+  for (std::size_t j = 0; j < model.riders.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
       const bool by_program = from[i].motion_law || from[j].motion_law;  // whose speeds are not known here
-      if (model.joints[i].body != model.joints[j].body || by_program) continue;
+      if (model.riders[i].body != model.riders[j].body || by_program) continue;
       share(i, j);
       share(j, i);
-      const Eigen::Vector3d here = body_velocity(model.joints[j], model),
-                            there = body_velocity(model.joints[i], model);
-      const bool driven = model.joints[i].motion || model.joints[j].motion;  // which may begin with a blow
+      const Eigen::Vector3d here = body_velocity(model.riders[j], model),
+                            there = body_velocity(model.riders[i], model);
+      const bool driven = model.riders[i].motion || model.riders[j].motion;  // which may begin with a blow
       if (driven || (here - there).norm() <= 1e-6 * std::max(here.norm(), there.norm())) continue;
       findings.error(
           from[j].path + ".speed",
@@ -249,19 +249,19 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     const int b = resolved.beam_index(joint.beam);
     const ReferenceCurve& curve = beams[b].curve;
     const CaseAnalysis& analysis = resolved.analysis;
-    SlidingJoint added{0,
-                       b,
-                       place_on(beams[b], joint.at, joint.path, findings),
-                       joint.speed.value_or(0),
-                       std::nullopt,
-                       analysis.type == CaseAnalysis::Type::dynamic ? joint.release : std::nullopt,
-                       joint.continuous_slope,
-                       joint.leave_at_end,
-                       joint.follows_section,
-                       joint.offset.value_or(Eigen::Vector2d::Zero()),
-                       joint.rest,
-                       analysis.has_modes() ? std::nullopt : joint.friction,
-                       joint.as_point};
+    Rider added{0,
+                b,
+                place_on(beams[b], joint.at, joint.path, findings),
+                joint.speed.value_or(0),
+                std::nullopt,
+                analysis.type == CaseAnalysis::Type::dynamic ? joint.release : std::nullopt,
+                joint.continuous_slope,
+                joint.leave_at_end,
+                joint.follows_section,
+                joint.offset.value_or(Eigen::Vector2d::Zero()),
+                joint.rest,
+                analysis.has_modes() ? std::nullopt : joint.friction,
+                joint.as_point};
     if (joint.as_point && !joint.continuous_slope)
       findings.error(
           joint.path + ".carried_as",
@@ -283,7 +283,7 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     warn_of_stiff_hinge(joint, added, model, findings);
     warn_of_speed(joint, added, model, findings);
-    model.joints.push_back(std::move(added));
+    model.riders.push_back(std::move(added));
   }
   check_apart(resolved.sliding_joints, model, findings);
   check_together(resolved.sliding_joints, model, findings);

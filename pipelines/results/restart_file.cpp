@@ -309,7 +309,7 @@ void exchange_plan(Archive& archive, MeshPlan& plan) {
       archive, "joint_places", "s of the sliding joints when the mesh was made", plan.places,
       [](double& place, auto& slot) { slot(place); });
   exchange_rows(archive, "joint_modes", "node, point, stopped, free", plan.modes,
-                [](JointMode& mode, auto& slot) { slot(mode); });
+                [](Carried& mode, auto& slot) { slot(mode); });
   std::vector<int> held(plan.held.begin(), plan.held.end());
   exchange_rows(archive, "held_joints", "whether a body waits for its release", held,
                 [](int& each, auto& slot) { slot(each); });

@@ -232,7 +232,7 @@ double step_of_residuals(const StudyVariable& variable, const BeamModel& model, 
 double step_of_elements(const StudyVariable& variable, const BeamModel& model, double by_value) {
   constexpr double part = 5e-6, far = 100, near = 0.1;
   const Beam* beam = beam_of_point(variable, model);
-  if (!beam || beam->has_torsion() || !model.joints.empty()) return by_value;
+  if (!beam || beam->has_torsion() || !model.riders.empty()) return by_value;
   return std::clamp(part * element_length(*beam), near * by_value, far * by_value);
 }
 

@@ -25,7 +25,7 @@ BeamModel in_a_bowl() {
 }
 
 BeamModel with_friction(BeamModel model, const Friction& friction) {
-  model.joints[0].friction = friction;
+  model.riders[0].friction = friction;
   return model;
 }
 
@@ -46,7 +46,7 @@ BeamProperties taut_rope(double tension) {
 }
 
 BeamModel as_point(BeamModel model) {
-  model.joints[0].as_point = true;
+  model.riders[0].as_point = true;
   return model;
 }
 
@@ -55,7 +55,7 @@ BeamModel on_a_rope(double at, double speed, const BeamProperties& rope = taut_r
   ModelBuilder builder = in_the_plane();
   builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {20, -2, 0})}, 2), rope, {20});
   builder.pin(0, 0).pin(0, 30);
-  SlidingJoint& joint = builder.slide(builder.add_body("body", 8), 0, at, speed);
+  Rider& joint = builder.slide(builder.add_body("body", 8), 0, at, speed);
   joint.continuous_slope = false;
   return builder.build();
 }
@@ -86,24 +86,22 @@ BeamModel coupled(ConnectorType type, double stiffness, double damping) {
   const int first = builder.add_body("first", 30), second = builder.add_body("second", 50);
   builder.slide(first, 0, 5, 1);
   builder.slide(second, 0, 7, 3);
-  builder.connect(ConnectorEnd::on_body(first), ConnectorEnd::on_body(second), type, stiffness).damping =
-      damping;
+  builder.connect(Grip::on_body(first), Grip::on_body(second), type, stiffness).damping = damping;
   return builder.build();
 }
 
 /// A load of 4 kg that hangs on the body of a model.
 BeamModel hanging(BeamModel model, ConnectorType type, double stiffness, double damping,
                   const Vector3d& from_body) {
-  const SlidingJoint& joint = model.joints[0];
+  const Rider& joint = model.riders[0];
   const Vector3d at = model.beam_of(joint).curve.position(joint.s) + from_body;
   model.bodies.push_back({.name = "load", .mass = 4, .position = at, .velocity = {0.5, 0, 0}});
-  model.connectors.push_back(
-      {.name = "rope",
-       .ends = {ConnectorEnd::on_body(joint.body), ConnectorEnd::on_body(joint.body + 1)},
-       .type = type,
-       .stiffness = stiffness,
-       .damping = damping,
-       .length = from_body.norm()});
+  model.connectors.push_back({.name = "rope",
+                              .ends = {Grip::on_body(joint.body), Grip::on_body(joint.body + 1)},
+                              .type = type,
+                              .stiffness = stiffness,
+                              .damping = damping,
+                              .length = from_body.norm()});
   return model;
 }
 
@@ -113,8 +111,8 @@ BeamModel on_droppers(double damping, double clamp) {
   builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {10, 0, 0})}, 2), taut_rope(2000), {10});
   builder.pin(0, 0).pin(0, 10);
   for (const double s : {3.0, 6.0}) {
-    Connector& dropper = builder.connect(ConnectorEnd::on_beam(0, s), ConnectorEnd::at_point({s, 1, 0}),
-                                         ConnectorType::tension_only, 2e4);
+    Connector& dropper =
+        builder.connect(Grip::on_beam(0, s), Grip::at_point({s, 1, 0}), ConnectorType::tension_only, 2e4);
     dropper.length = 1.002;
     dropper.damping = damping;
     if (clamp > 0) builder.add(PlaceMass{0, s, clamp});
@@ -175,14 +173,14 @@ std::vector<FeatureModel> feature_models() {
       0.5, 2.5e-4);
   add("drag", guide, in_air(in_a_bowl(), {0, 0, 0}), 2, 4e-3);
   add("wind", guide, in_air(in_a_bowl(), {12, 3, 0}), 2, 4e-3);
-  add("stop", guide, with_stops(in_a_bowl(), {{.joint = 0, .place = 6, .restitution = 0.7}}), 2, 4e-3);
+  add("stop", guide, with_stops(in_a_bowl(), {{.rider = 0, .place = 6, .restitution = 0.7}}), 2, 4e-3);
   add("stop-on-an-arch", drawn,
-      with_stops(on_an_arch(2, 0.5, 3), {{.joint = 0, .place = 1.4, .restitution = 0.5}}), 0.5, 1e-4, 1e-3);
-  add("buffer", guide, with_stops(in_a_bowl(), {{.joint = 0, .place = 6, .buffer = Buffer{4e3}}}), 2, 2e-3);
-  add("damped-buffer", guide, with_stops(in_a_bowl(), {{.joint = 0, .place = 6, .buffer = Buffer{4e3, 60}}}),
+      with_stops(on_an_arch(2, 0.5, 3), {{.rider = 0, .place = 1.4, .restitution = 0.5}}), 0.5, 1e-4, 1e-3);
+  add("buffer", guide, with_stops(in_a_bowl(), {{.rider = 0, .place = 6, .buffer = Buffer{4e3}}}), 2, 2e-3);
+  add("damped-buffer", guide, with_stops(in_a_bowl(), {{.rider = 0, .place = 6, .buffer = Buffer{4e3, 60}}}),
       2, 2e-3);
   add("kept-apart", guide,
-      with_stops(two_trolleys(), {{.joint = 0, .other = 1, .place = 0.5, .restitution = 0.4}}), 3, 4e-3);
+      with_stops(two_trolleys(), {{.rider = 0, .other = 1, .place = 0.5, .restitution = 0.4}}), 3, 4e-3);
   add("spring", guide, coupled(ConnectorType::spring, 2000, 0), 2, 2e-3);
   add("damper", guide, coupled(ConnectorType::spring, 2000, 80), 2, 2e-3);
   add("one-sided", guide, coupled(ConnectorType::tension_only, 2000, 0), 1.2, 2e-3);

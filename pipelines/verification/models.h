@@ -32,10 +32,10 @@ inline BeamModel one_beam(std::vector<RationalCubic> axis, int dimension, const 
 /// A body of the given mass on the first beam.
 inline void add_slider(BeamModel& model, double mass, double s) {
   model.bodies.push_back({.name = "body", .mass = mass});
-  SlidingJoint joint{};
+  Rider joint{};
   joint.body = static_cast<int>(model.bodies.size()) - 1;
   joint.s = s;
-  model.joints.push_back(std::move(joint));
+  model.riders.push_back(std::move(joint));
 }
 
 /// A dead force or moment at a place of the first beam that may move; beyond the end it is at the end.

@@ -66,7 +66,7 @@ BeamModel moved_falling_beam(int dimension, const Eigen::Matrix3d& R, const Eige
   BeamModel model = one_beam({line_cubic(shift, R * Eigen::Vector3d::UnitX() + shift)}, dimension,
                              plain.beams[0].properties, 12, {{0, true}});
   model.gravity = R * plain.gravity;
-  add_slider(model, plain.bodies[0].mass, plain.joints[0].s);
+  add_slider(model, plain.bodies[0].mass, plain.riders[0].s);
   return model;
 }
 
@@ -105,7 +105,7 @@ VerifyResult frozen_sliding() {
   const auto run = [&](const BeamModel& model) { return run_model(model, times, 5e-4, 0.9, {{0, L}}); };
   BeamModel frozen = plain;
   add_slider(frozen, 1e-12, 0.375 * L);
-  frozen.joints[0].motion = TimeTable{{0, 0.375 * L}};
+  frozen.riders[0].motion = TimeTable{{0, 0.375 * L}};
   const RunRecord without = run(plain), with = run(frozen);
   double tip = 0, place = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -125,7 +125,7 @@ VerifyResult merge_momentum() {
   BeamModel model = one_beam(arc_cubics({0, 1, 0}, 1, -pi / 2, 0, 1), 2, round_bar(0.02, 2000, 2e7), 12, {});
   model.gravity.setZero();
   add_slider(model, 1, 0.2);
-  model.joints[0].speed = 4;
+  model.riders[0].speed = 4;
   const RunRecord run = run_model(model, {0, 0.25}, 2e-4);
   double jump = 0;
   int merges = 0;
@@ -172,7 +172,7 @@ VerifyResult split() {
   model.beams[0].properties.axial_strain = AxialStrain::pointwise;  // else the new node is moved
   const std::vector<HomeNode>& home = model.beams[0].home;
   add_slider(model, 1, (home[3].s + home[4].s) / 2);
-  model.joints[0].speed = 0.5;
+  model.riders[0].speed = 0.5;
   MeshPlan full = initial_plan(model);
   full.beams[0].present.assign(home.size(), true);
   MeshPlan coarse = full;

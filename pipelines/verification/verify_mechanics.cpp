@@ -158,7 +158,7 @@ VerifyResult held_body() {
     const double drawn = s * span / length;
     const int b = add_line(builder, span, BeamProperties(EA, 1e-9, 2.5).with_free_stretch(length / span), 48);
     builder.pin(b, 0).pin(b, span);
-    SlidingJoint& joint = builder.slide(builder.add_body("load", 800), b, drawn);
+    Rider& joint = builder.slide(builder.add_body("load", 800), b, drawn);
     joint.continuous_slope = false;
     joint.rest = place;
     const double near = 1e-6;
@@ -206,8 +206,7 @@ VerifyResult rope_that_slackens() {
     const int b = add_line(builder, 1, BeamProperties(1e6, 10, 2), 2);  // a model has a beam
     builder.clamp(b, 0);
     const int body = builder.add_body("load", m, {0, -1, 0}, {0, -speed, 0});
-    builder.connect(ConnectorEnd::on_body(body), ConnectorEnd::at_point({0, 0, 0}),
-                    ConnectorType::tension_only, k);
+    builder.connect(Grip::on_body(body), Grip::at_point({0, 0, 0}), ConnectorType::tension_only, k);
     return run_model(builder.build(), times, step);
   };
   const std::vector<double> times = even_times(2 * period, 400);
@@ -241,8 +240,7 @@ VerifyResult droppers() {
     for (const double s : places) {
       string.pulls.push_back(
           {.s = s, .force_z = s == 15 ? lift : 0, .stiffness = k, .free_length = 1, .x = s, .z = 1});
-      builder.connect(ConnectorEnd::on_beam(b, s), ConnectorEnd::at_point({s, 1, 0}),
-                      ConnectorType::tension_only, k);
+      builder.connect(Grip::on_beam(b, s), Grip::at_point({s, 1, 0}), ConnectorType::tension_only, k);
     }
     if (lift > 0) builder.force(b, 15, {0, lift, 0});
     const HangingString::Solution exact = string.solve();
@@ -320,12 +318,11 @@ VerifyResult bridge() {
   const int wheel = builder.add_body("wheel", 1e-3);
   builder.slide(wheel, b, 0).motion = TimeTable{{0, 0}, {of.length / of.speed, of.length}};
   const int vehicle = builder.add_body("vehicle", of.vehicle, {0, 2, 0}, {of.speed, 0, 0});
-  Connector& spring = builder.connect(ConnectorEnd::on_body(wheel), ConnectorEnd::on_body(vehicle),
-                                      ConnectorType::spring, of.k);
+  Connector& spring =
+      builder.connect(Grip::on_body(wheel), Grip::on_body(vehicle), ConnectorType::spring, of.k);
   spring.direction = Vector3d(0, 1, 0);
   spring.length = 2 + of.vehicle * standard_gravity / of.k;
-  Connector& along =
-      builder.connect(ConnectorEnd::on_body(wheel), ConnectorEnd::on_body(vehicle), ConnectorType::rod);
+  Connector& along = builder.connect(Grip::on_body(wheel), Grip::on_body(vehicle), ConnectorType::rod);
   along.direction = Vector3d(1, 0, 0);
   along.length = 0;
   // The bridge is level in its own equilibrium: as if its weight were carried.

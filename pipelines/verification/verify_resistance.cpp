@@ -52,15 +52,15 @@ double largest_drift(const RunRecord& run) {
 VerifyResult friction_on_a_slope() {
   VerifyResult result;
   BeamModel model = on_guide(slope_down(30, 40), 5);
-  model.joints[0].friction = Friction{.coefficient = 0.2};
+  model.riders[0].friction = Friction{.coefficient = 0.2};
   const double a = g_of_earth * (0.5 - 0.2 * std::sqrt(0.75)), time = std::sqrt(20 / a);
   const RunRecord run = run_model(model, {0, time}, 0.01);
   result.add("mu = 0.2: place at t = 2.497715 s [m]", 10, "g (sin - mu cos) t^2/2", run.place(1), 1e-5);
   result.add("speed there [m/s]", a * time, "g (sin - mu cos) t", speed_in(run, 1), 1e-5);
   result.add("energy lost [J]", 0.2 * 5 * g_of_earth * std::sqrt(0.75) * 10, "mu m g cos s",
              run.frames[1].energy.dissipated, 1e-4);
-  model.joints[0].friction->coefficient = 0.6;
-  model.joints[0].s = 1;
+  model.riders[0].friction->coefficient = 0.6;
+  model.riders[0].s = 1;
   result.add("mu = 0.6: creep in 100 s [m]", 0, "it sticks", run_model(model, {0, 100}, 0.05).place(1) - 1,
              1e-12);
   return result;
@@ -99,7 +99,7 @@ VerifyResult friction_on_a_circle() {
   VerifyResult result;
   const double R = 3;
   BeamModel model = on_guide(arc_cubics({0, 0, 0}, R, pi, 2 * pi, 4), 5);
-  model.joints[0].friction = Friction{.coefficient = 0.25};
+  model.riders[0].friction = Friction{.coefficient = 0.25};
   SwingWithFriction bottom{R, 0.25};
   bottom.run_to([](const SwingWithFriction& x) { return x.phi - pi / 2; });
   SwingWithFriction rest = bottom;
@@ -124,7 +124,7 @@ VerifyResult friction_on_a_circle() {
 VerifyResult drag_down_a_slope() {
   VerifyResult result;
   BeamModel model = on_guide(slope_down(12, 400), 90);
-  model.joints[0].friction = Friction{.coefficient = 0.02};
+  model.riders[0].friction = Friction{.coefficient = 0.02};
   model.air.density = 1.225;
   model.bodies[0].drag_area = 0.8;
   const double alpha = 12 * pi / 180, k = 1.225 * 0.8 / (2 * 90);
@@ -141,7 +141,7 @@ VerifyResult hard_stop() {
   VerifyResult result;
   const double a = g_of_earth / 2, v = std::sqrt(4 * a), t = v / a;
   BeamModel model = on_guide(slope_down(30, 20), 5);
-  model.stops.push_back({.joint = 0, .place = 2, .restitution = 0.6});
+  model.stops.push_back({.rider = 0, .place = 2, .restitution = 0.6});
   const RunRecord run = run_model(model, {0, t + 0.6 * t, 4}, 2e-4);
   result.add("first impact [s]", t, "sqrt(2s/a)", first_time(run, EventKind::hits_stop), 1e-6);
   result.add("second impact [s]", 2.2 * t, "(1 + 2e) t1", first_time(run, EventKind::hits_stop, 1), 1e-6);
@@ -150,7 +150,7 @@ VerifyResult hard_stop() {
   result.add("rebound [m]", 0.72, "e^2 s", 2 - run.place(1), 1e-6);
   result.add("at rest [s]", 4 * t, "(1 + e)/(1 - e) t1", first_time(run, EventKind::rests_at_stop), 3e-5);
 
-  model.joints[0].friction = Friction{.coefficient = 0.1};
+  model.riders[0].friction = Friction{.coefficient = 0.1};
   const double c = std::sqrt(0.75), down = g_of_earth * (0.5 - 0.1 * c), up = g_of_earth * (0.5 + 0.1 * c);
   const double v1 = std::sqrt(4 * down), t1 = v1 / down, u1 = 0.6 * v1, v2 = u1 * std::sqrt(down / up),
                t2 = t1 + u1 / up + v2 / down;
@@ -169,7 +169,7 @@ void add_stiff_damper(VerifyResult& result) {
   const double m = 80, k = 2e4, c = 4e4, v = 3, b = c / (2 * m), q = b + std::sqrt(b * b - k / m),
                p = k / m / q;
   BeamModel model = on_guide({line_cubic({0, 0, 0}, {20, 0, 0})}, m, v, 1);
-  model.stops.push_back({.joint = 0, .place = 4, .buffer = Buffer{k, c}});
+  model.stops.push_back({.rider = 0, .place = 4, .buffer = Buffer{k, c}});
   const double deepest = std::log(q / p) / (q - p), away = 2 * deepest;
   const RunRecord run = run_model(model, {0, 1 + deepest, 1.5}, 0.01);
   result.add("pressed in at 0.0138 s, c h/m = 5 [m]",
@@ -185,7 +185,7 @@ VerifyResult buffer() {
   VerifyResult result;
   const double m = 80, k = 2e4, c = 800, v = 3, b = c / (2 * m), w = std::sqrt(k / m - b * b);
   BeamModel model = on_guide({line_cubic({0, 0, 0}, {20, 0, 0})}, m, v, 1);
-  model.stops.push_back({.joint = 0, .place = 4, .buffer = Buffer{k, c}});
+  model.stops.push_back({.rider = 0, .place = 4, .buffer = Buffer{k, c}});
   const double deepest = std::atan2(w, b) / w;
   // The force k x + c dx/dt = v exp(-b t) (c cos(w t) + (k - b c)/w sin(w t)) ends at the first root.
   const double away = (pi - std::atan2(c, (k - b * c) / w)) / w;
@@ -223,7 +223,7 @@ VerifyResult friction_at_a_kink() {
     const BeamProperties rope = BeamProperties(3e6, 12, 0.25).with_free_stretch(stretch);
     builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {X, 0, 0})}, 2).straightened(), rope, {24});
     builder.pin(0, 0).pin(0, X);
-    SlidingJoint& joint = builder.slide(builder.add_body("body", 60), 0, 4);
+    Rider& joint = builder.slide(builder.add_body("body", 60), 0, 4);
     joint.continuous_slope = false;
     joint.friction = Friction{.coefficient = mu, .law = law};
     SimulationOptions options;

@@ -39,8 +39,8 @@ VerifyResult node_over_a_rod_at_rest() {
   VerifyResult result;
   const double mass = 1e-12, speed = 3;
   BeamModel model = twisted_arc(mass, speed, {0, 0, 0}, AxialStrain::pointwise);
-  const double start = model.joints[0].s;
-  model.joints[0].motion = TimeTable{{0, start}, {1, start + speed}};  // else it is too light to be a node
+  const double start = model.riders[0].s;
+  model.riders[0].motion = TimeTable{{0, start}, {1, start + speed}};  // else it is too light to be a node
   const BeamSystem system(model);
   State state = drawn_state(system);
   start_moving(system, state);
@@ -68,7 +68,7 @@ struct Ride {
   }
   static BeamModel clamped(BeamModel model) {
     model.bodies[0].roll_inertia = 0.02;
-    model.joints[0].follows_section = true;
+    model.riders[0].follows_section = true;
     model.constraints.push_back(Support{0, 0, true, false, {}});
     mark_held_nodes(model);
     return model;

@@ -32,7 +32,7 @@ VerifyResult train() {
     const int behind = builder.add_body("a", a), ahead = builder.add_body("b", b);
     builder.slide(behind, guide, 10, 6);
     builder.slide(ahead, guide, 10 + gap, 6 - closing);
-    builder.connect(ConnectorEnd::on_body(behind), ConnectorEnd::on_body(ahead), ConnectorType::spring, k);
+    builder.connect(Grip::on_body(behind), Grip::on_body(ahead), ConnectorType::spring, k);
     return run_model(builder.build(), times, step);
   };
   const std::vector<double> times = even_times(3 * period, 60);
@@ -66,7 +66,7 @@ VerifyResult linked_friction() {
   const int behind = builder.add_body("a", a), ahead = builder.add_body("b", b);
   builder.slide(behind, guide, 1).friction = Friction{.coefficient = mu_a};
   builder.slide(ahead, guide, 3).friction = Friction{.coefficient = mu_b};
-  builder.connect(ConnectorEnd::on_body(behind), ConnectorEnd::on_body(ahead), ConnectorType::rod);
+  builder.connect(Grip::on_body(behind), Grip::on_body(ahead), ConnectorType::rod);
   const double along = weight_per_mass * std::sin(slope), press = weight_per_mass * std::cos(slope);
   const double acceleration = along - press * (mu_a * a + mu_b * b) / (a + b);
   const RunRecord run = run_model(builder.build(), {0, 2}, 1e-3);
@@ -99,7 +99,7 @@ VerifyResult pendulum_on_trolley() {
   const int below =
       builder.add_body("load", load, {50 + length * std::sin(start), -length * std::cos(start), 0});
   builder.slide(above, guide, 50);
-  builder.connect(ConnectorEnd::on_body(above), ConnectorEnd::on_body(below), ConnectorType::rod);
+  builder.connect(Grip::on_body(above), Grip::on_body(below), ConnectorType::rod);
   const RunRecord run = run_model(builder.build(), times, 2e-4);
   SwingOnTrolley y{start, 0};
   const double h = 1e-4;
@@ -138,9 +138,9 @@ VerifyResult hanging_still() {
     const int above = builder.add_body("trolley", 50);
     const Vector3d from(2 * std::cos(slope), -2 * std::sin(slope), 0);
     const int below = builder.add_body("load", load, from + length * felt.normalized());
-    SlidingJoint& joint = builder.slide(above, guide, 2);
+    Rider& joint = builder.slide(above, guide, 2);
     if (mu > 0) joint.friction = Friction{.coefficient = mu};
-    builder.connect(ConnectorEnd::on_body(above), ConnectorEnd::on_body(below), ConnectorType::rod);
+    builder.connect(Grip::on_body(above), Grip::on_body(below), ConnectorType::rod);
     const RunRecord run = run_model(builder.build(), {0, 1, 2}, 1e-3);
     const std::string with = ", friction " + std::to_string(mu).substr(0, 3);
     const Vector3d rod =

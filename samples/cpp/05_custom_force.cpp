@@ -18,8 +18,8 @@ int main() {
                        {.youngs_modulus = 210e9, .density = 7850}, {.elements = 4});
   builder.clamp(bar, 0).clamp(bar, 1);
   const int ball = builder.add_body("ball", mass, {0.5, 0.3, 0});
-  using Point = CustomForce::Attachment;
-  builder.add(CustomForce{{Point::to_body(ball), Point::to_beam(bar, 0.5)},
+  using Point = Grip;
+  builder.add(CustomForce{{Point::on_body(ball), Point::on_beam(bar, 0.5)},
                           [=](double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
                             const Eigen::Vector3d d = r.col(0) - r.col(1),
                                                   pull = k * (1 - gap / d.norm()) * d;

@@ -107,7 +107,7 @@ Vector3d mass_damping_force(const BeamSystem& system, const State& state) {
   return force;
 }
 
-Vector3d place_of_end(const BeamSystem& system, const State& state, const ConnectorEnd& end) {
+Vector3d place_of_end(const BeamSystem& system, const State& state, const Grip& end) {
   if (end.is_point()) return end.point;
   if (end.body >= 0) return vector_at(system, state.q, system.mesh().bodies[end.body]);
   return vector_at(system, state.q, kept_position(system.model(), system.mesh(), end.beam, end.s, "an end"));
@@ -162,8 +162,8 @@ Loads external_forces(const BeamSystem& system, const State& state) {
   loads.add(of_rows - loads.sum);
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     loads.add(air_drag(system, state, body) - air_drag(system, free, body));
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
-    if (model.beam_of(model.joints[j]).rigid) loads.add(joint_force(system, state, j));
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j)
+    if (model.beam_of(model.riders[j]).rigid) loads.add(joint_force(system, state, j));
   loads.add(mass_damping_force(system, state));
   loads.add(force_of_points(system, state) - force_of_points(system, free));
   double length = 0;
@@ -196,7 +196,7 @@ double imbalance(const BeamSystem& system, const State& state, double noise = 0)
   double largest = std::max(loads.largest, inertia.norm());
   for (const Beam& beam : system.model().beams)
     largest = std::max(largest, 1e-6 * beam.properties.axial_stiffness);
-  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j)
+  for (int j = 0; j < static_cast<int>(system.model().riders.size()); ++j)
     largest = std::max(largest, joint_force(system, state, j).norm());
   return largest > 0 ? std::max(0.0, (inertia - loads.sum).norm() - of_rate - noise) / largest : 0;
 }

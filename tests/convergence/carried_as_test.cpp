@@ -19,7 +19,7 @@ struct BothWays {
 BothWays run_both(BeamModel model, double end, double step) {
   const std::vector<double> times = testing::even_times(end, 20);
   const auto node = testing::run_model(model, times, step);
-  model.joints[0].as_point = true;
+  model.riders[0].as_point = true;
   const auto point = testing::run_model(model, times, step);
   EXPECT_FALSE(node.report.events.empty());
   EXPECT_TRUE(point.report.events.empty());

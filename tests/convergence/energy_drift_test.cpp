@@ -56,7 +56,7 @@ TEST(EnergyDrift, FallsWithTheSquareOfTheStepWithThreeElements) {
 
 TEST(EnergyDrift, FallsWithTheSquareOfTheStepWithADiscontinuousSlope) {
   BeamModel model = suspended_beam(6);
-  model.joints[0].continuous_slope = false;
+  model.riders[0].continuous_slope = false;
   expect_second_order(model, 0.5, 2e-3, 1);
 }
 
@@ -75,7 +75,7 @@ BeamModel line_arc_spline() {
   axis.push_back(RationalCubic(spline));
   BeamModel model = one_beam(axis, 2, round_bar(0.05, 1000, 2e6), 24, {{0, false}, {10, false}});
   add_slider(model, 1, 0.7);
-  model.joints[0].speed = 3;
+  model.riders[0].speed = 3;
   return model;
 }
 

@@ -103,7 +103,7 @@ std::vector<double> acting(const BeamSystem& system, const State& state) {
     now.push_back(StopDistance(model, system.mesh(), model.stops[i]).value(state.q));
     now.push_back(system.mesh().plan.is_closed(i));
   }
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j)
     if (const std::optional<double> s = place(system, state, j)) {
       now.push_back(*s);
       // The waves of an impact are shorter than elements: without a node their mean is its velocity.
@@ -125,7 +125,7 @@ void expect_same(const std::vector<double>& before, const std::vector<double>& a
 TEST_P(Features, AreTheSameOnAnotherMesh) {
   const auto model = std::make_shared<const BeamModel>(GetParam().model);
   const SimulationOptions options = options_of(GetParam());
-  if (model->joints.empty() || model->joints[0].as_point || model->beam_of(model->joints[0]).rigid)
+  if (model->riders.empty() || model->riders[0].as_point || model->beam_of(model->riders[0]).rigid)
     GTEST_SKIP() << "no mesh changes";
   Simulation simulation(model, {}, options);
   int changes = 0;
@@ -146,7 +146,7 @@ TEST_P(Features, AreTheSameOnAnotherMesh) {
     }
   }
   EXPECT_EQ(simulation.report().status, SimulationStatus::done);
-  const double slid = std::abs(*place(simulation.system(), simulation.state(), 0) - model->joints[0].s);
+  const double slid = std::abs(*place(simulation.system(), simulation.state(), 0) - model->riders[0].s);
   EXPECT_GE(changes, slid > 0.2 ? 3 : 0);
 }
 

@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
                [] {
                  BeamModel model = arc();
                  CustomForce spring;
-                 spring.points = {CustomForce::Attachment::to_beam(0, model.beams[0].curve.length())};
+                 spring.points = {Grip::on_beam(0, model.beams[0].curve.length())};
                  spring.law = [](double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
                    return CustomForce::Response{200 * (Eigen::Vector3d(2, 2, 0) - r.col(0)), {}, {}};
                  };
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
                [] {
                  BeamModel model = arc();
                  add_slider(model, 2, 0.3);
-                 model.joints[0].motion = TimeTable{{0, 0.3}, {0.2, 0.7}};
+                 model.riders[0].motion = TimeTable{{0, 0.3}, {0.2, 0.7}};
                  return model;
                }}),
     [](const auto& info) { return info.param.name; });

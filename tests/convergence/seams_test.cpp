@@ -26,10 +26,10 @@ struct Swing {
 };
 
 void hang(BeamModel& model, ConnectorType type, double stiffness, double damping) {
-  const Eigen::Vector3d at = model.beams[0].curve.position(model.joints[0].s);
+  const Eigen::Vector3d at = model.beams[0].curve.position(model.riders[0].s);
   model.bodies.push_back({.name = "load", .mass = 4, .position = at + Eigen::Vector3d(0.3, -0.8, 0)});
   model.connectors.push_back({.name = "rope",
-                              .ends = {ConnectorEnd::on_body(0), ConnectorEnd::on_body(1)},
+                              .ends = {Grip::on_body(0), Grip::on_body(1)},
                               .type = type,
                               .stiffness = stiffness,
                               .damping = damping,
@@ -39,7 +39,7 @@ void hang(BeamModel& model, ConnectorType type, double stiffness, double damping
 /// A stop for the body at 300 degrees, ahead of it.
 Stop stop_ahead(const BeamModel& model, double place) {
   const double length = 2 * pi * ring_radius;
-  return {.joint = 0, .place = place < model.joints[0].s ? place + length : place};
+  return {.rider = 0, .place = place < model.riders[0].s ? place + length : place};
 }
 
 /// Segments of 120 degrees, the first from the seam on; the body starts at 215 degrees, at rest.
@@ -97,11 +97,11 @@ INSTANTIATE_TEST_SUITE_P(
         Swing{"Guide", [](BeamModel&, const PlaceOf&) {}},
         Swing{"Friction",
               [](BeamModel& model, const PlaceOf&) {
-                model.joints[0].friction = Friction{.coefficient = 0.1, .static_coefficient = 0.2};
+                model.riders[0].friction = Friction{.coefficient = 0.1, .static_coefficient = 0.2};
               }},
         Swing{"Brake",
               [](BeamModel& model, const PlaceOf&) {
-                model.joints[0].friction = Friction{.force = TimeTable{{0, 0}, {0.5, 0}, {2, 40}}};
+                model.riders[0].friction = Friction{.force = TimeTable{{0, 0}, {0.5, 0}, {2, 40}}};
               }},
         Swing{"Wind",
               [](BeamModel& model, const PlaceOf&) {

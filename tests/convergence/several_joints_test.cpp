@@ -27,7 +27,7 @@ BeamModel beam_with_joints(int elements, const std::vector<Slider>& sliders) {
                              {{0, false}, {1, false}});
   for (const Slider& slider : sliders) {
     add_slider(model, slider.mass, slider.s);
-    model.joints.back().speed = slider.speed;
+    model.riders.back().speed = slider.speed;
   }
   return model;
 }
@@ -81,7 +81,7 @@ TEST(TwoBeams, MoveEachAsAlone) {
   BeamModel both = beam_with_joints(12, {{2, 0.15, 1}, {2, 0.15, 1}});
   both.beams.push_back(both.beams[0]);
   both.beams[1].name = "other";
-  both.joints[1].beam = 1;
+  both.riders[1].beam = 1;
   for (int i : {0, 1}) {
     Support support = std::get<Support>(both.constraints[i]);
     support.beam = 1;

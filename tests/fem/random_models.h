@@ -39,7 +39,7 @@ inline State disturbed_state(const BeamSystem& system, std::mt19937& random, dou
     state.a[i] = unit(random);
   }
   for (Eigen::Index i = 0; i < state.lambda.size(); ++i) state.lambda[i] = unit(random);
-  for (const MeshJoint& joint : system.mesh().joints)
+  for (const MeshRider& joint : system.mesh().riders)
     if (joint.place >= 0) state.q[joint.place] = drawn_state(system).q[joint.place];
   return state;
 }
@@ -53,8 +53,8 @@ inline BeamModel model_with_everything(std::mt19937& random, int dimension) {
   add_slider(model, 0.8, 0.33 * L);
   add_slider(model, 0.5, 0.995 * L);
   add_slider(model, 0.4, 0.55 * L);
-  model.joints[0].continuous_slope = false;
-  model.joints[2].motion = TimeTable{{0, 0.55 * L}, {1, 0.55 * L + 0.3}};
+  model.riders[0].continuous_slope = false;
+  model.riders[2].motion = TimeTable{{0, 0.55 * L}, {1, 0.55 * L + 0.3}};
   const Eigen::Vector3d force = dimension == 3 ? Eigen::Vector3d(1, -2, 0.7) : Eigen::Vector3d(1, -2, 0);
   const TimeTable ramp{{0, 0.5}, {1, 2}};
   model.forces = {PointLoad{{0, 0.9 * L, 0, force, false, ramp}}, PointLoad{{0, 0.3 * L, 0, force, true, {}}},

@@ -204,8 +204,8 @@ bool stays(NodeKind kind, double distance, bool continuous_slope = false) {
   EXPECT_NEAR(model.beams[0].home[corner].s, 1, 1e-12);
   model.beams[0].home[corner].kind = kind;
   testing::add_slider(model, 0.8, 1 - 0.2 * distance);
-  model.joints[0].speed = 1;
-  model.joints[0].continuous_slope = continuous_slope;
+  model.riders[0].speed = 1;
+  model.riders[0].continuous_slope = continuous_slope;
   const BeamSystem system(model, initial_plan(model));
   State state = drawn_state(system);
   start_moving(system, state);

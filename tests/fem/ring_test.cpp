@@ -80,7 +80,7 @@ void map(const BeamSystem& system, const Eigen::Matrix<double, D, D>& A, const E
 TEST(Ring, AsDrawnAndTurnedAndMovedHasNoForce) {
   BeamModel model = ring_model(2);
   testing::add_slider(model, 0.3, 0.001);
-  model.joints[0].continuous_slope = false;  // hides the seam
+  model.riders[0].continuous_slope = false;  // hides the seam
   const BeamSystem system(model, initial_plan(model));
   EXPECT_FALSE(system.mesh().plan.beams[0].present[0]);
   State state = drawn_state(system);
@@ -88,7 +88,7 @@ TEST(Ring, AsDrawnAndTurnedAndMovedHasNoForce) {
   map<2>(system, turn, Eigen::Vector2d(3, -1), state.q);
   // Both elements at the slider are plain cubics in arc length: not exactly arcs.
   EXPECT_LT(energy(system, state).mechanical(), 1e-4);
-  model.joints.clear();
+  model.riders.clear();
   model.bodies.clear();
   const BeamSystem alone(model, initial_plan(model));
   state = drawn_state(alone);
@@ -128,7 +128,7 @@ void check_gradient(double place) {
   if (D == 3) model.beams[0].curve = model.beams[0].curve.straightened();
   model.gravity = {0.3, -9.81, 0};
   testing::add_slider(model, 0.8, place);
-  model.joints[0].continuous_slope = false;
+  model.riders[0].continuous_slope = false;
   const BeamSystem system(model, initial_plan(model));
   State state = disturbed_state(system, random, 0.01);
   state.v.setZero();
@@ -161,14 +161,14 @@ TEST(Ring, IsTheSameHoweverOftenTheSliderHasGoneRound) {
   testing::add_slider(model, 0.8, 0.4);
   const double L = model.beams[0].curve.length();
   for (const double place : {0.4, 0.001, L - 0.001}) {
-    model.joints[0].s = place;
+    model.riders[0].s = place;
     const BeamSystem first(model, initial_plan(model));
     const State state = disturbed_state(first, random, 0.01);
     for (const int turns : {-2, 1, 5}) {
-      model.joints[0].s = place + turns * L;
+      model.riders[0].s = place + turns * L;
       const BeamSystem later(model, initial_plan(model));
       State same = state;
-      same.q[later.mesh().joints[0].place] += turns * L;
+      same.q[later.mesh().riders[0].place] += turns * L;
       EXPECT_LT((ring_residual<2>(later, same) - ring_residual<2>(first, state)).norm(),
                 1e-9 * ring_residual<2>(first, state).norm());
       EXPECT_NEAR(energy(later, same).mechanical(), energy(first, state).mechanical(), 1e-9);
@@ -182,7 +182,7 @@ TEST(Ring, ANodeThatComesAndGoesAtTheSeamKeepsEnergyAndMomentum) {
   for (const double place : {0.004, -0.004}) {
     BeamModel model = ring_model(2);
     testing::add_slider(model, 0.8, place);
-    model.joints[0].continuous_slope = false;
+    model.riders[0].continuous_slope = false;
     MeshPlan hidden = initial_plan(model), there = hidden;
     ASSERT_FALSE(hidden.beams[0].present[0]);
     there.beams[0].present[0] = true;
@@ -207,7 +207,7 @@ TEST(Ring, LengthControlDoesAtTheSeamWhatItDoesAtEveryBreak) {
   const double L = model.beams[0].curve.length();
   testing::add_slider(model, 0.8, L / 32);
   for (const auto& [speed, continuous] : {std::pair{1.0, true}, {-1.0, true}, {1.0, false}, {-1.0, false}}) {
-    model.joints[0].continuous_slope = continuous;
+    model.riders[0].continuous_slope = continuous;
     MeshPlan plan = initial_plan(model);
     std::vector<std::vector<std::pair<MeshChange, long>>> quarters(12);
     constexpr int per_quarter = 300, steps = 12 * per_quarter;
@@ -216,7 +216,7 @@ TEST(Ring, LengthControlDoesAtTheSeamWhatItDoesAtEveryBreak) {
       while (true) {
         const BeamSystem system(model, plan);
         State state = drawn_state(system);
-        state.v[system.mesh().joints[0].place] = speed;
+        state.v[system.mesh().riders[0].place] = speed;
         ASSERT_TRUE(system.admissible(state));
         const NextPlan next = next_plan(system, state, LengthControl{});
         if (next.change == MeshChange::none) break;

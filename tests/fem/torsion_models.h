@@ -59,15 +59,15 @@ inline BeamModel torsion_sliding_model(std::mt19937& random, double point_roll) 
   }
   builder.add_beam(ReferenceCurve(other, 3), with_sections(), {4});
   const double L = builder.beam(0).curve.length(), M = builder.beam(1).curve.length();
-  const auto slide = [&](double part) -> SlidingJoint& {
+  const auto slide = [&](double part) -> Rider& {
     return builder.slide(builder.add_body("body at " + std::to_string(part), 0.4), 0, part * L);
   };
-  SlidingJoint& on_node = slide(0.3);
+  Rider& on_node = slide(0.3);
   on_node.follows_section = true;
   on_node.offset = {0.1, -0.2};
   slide(0.55).continuous_slope = false;
   slide(0.8);
-  SlidingJoint& on_point = slide(0.99);
+  Rider& on_point = slide(0.99);
   on_point.follows_section = true;
   on_point.offset = {-0.15, 0.1};
   builder.clamp(0, 0);

@@ -173,7 +173,7 @@ TEST(Torsion, OfAModelIsRefusedWhereItMeansNothing) {
   space.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {2, 0, 0})}, 3), with_sections());
   space.add_beam(ReferenceCurve({line_cubic({0, 1, 0}, {2, 1, 0})}, 3), BeamProperties{300, 2, 0.7});
   EXPECT_THROW(space.fork(1, 0), std::invalid_argument);
-  SlidingJoint& joint = space.slide(space.add_body("bead", 1), 0, 1);
+  Rider& joint = space.slide(space.add_body("bead", 1), 0, 1);
   EXPECT_NO_THROW(space.build());
   joint.follows_section = true;
   EXPECT_NO_THROW(space.build());

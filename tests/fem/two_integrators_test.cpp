@@ -16,7 +16,7 @@ TEST(TwoIntegrators, ApproachEachOtherOnABeamWithASlidingMassAsGeneralizedAlphaI
   BeamModel model =
       testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2, {60, 0.5, 2, 0, {}}, 4, {{0, true}});
   testing::add_slider(model, 0.8, 0.4);
-  model.joints[0].speed = 0.2;
+  model.riders[0].speed = 0.2;
   const BeamSystem system(model, initial_plan(model));
   State start = drawn_state(system);
   start_moving(system, start);

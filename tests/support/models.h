@@ -30,10 +30,10 @@ inline BeamModel one_beam(const std::vector<RationalCubic>& axis, int dimension,
 }
 
 /// A body of the given mass that slides on the first beam.
-inline SlidingJoint& add_slider(BeamModel& model, double mass, double s) {
+inline Rider& add_slider(BeamModel& model, double mass, double s) {
   model.bodies.push_back({.name = "body", .mass = mass});
-  return model.joints.emplace_back(
-      SlidingJoint{.body = static_cast<int>(model.bodies.size()) - 1, .beam = 0, .s = s, .motion = {}});
+  return model.riders.emplace_back(
+      Rider{.body = static_cast<int>(model.bodies.size()) - 1, .beam = 0, .s = s, .motion = {}});
 }
 
 }  // namespace nurbeam::testing

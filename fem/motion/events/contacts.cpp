@@ -16,8 +16,8 @@ namespace nurbeam {
 
 namespace {
 
-double lead(const BeamSystem& system, const State& state, std::pair<int, int> joints) {
-  return *place(system, state, joints.second) - *place(system, state, joints.first);
+double lead(const BeamSystem& system, const State& state, std::pair<int, int> riders) {
+  return *place(system, state, riders.second) - *place(system, state, riders.first);
 }
 
 double buffer_force(const BeamSystem& system, const State& state, int stop) {
@@ -27,14 +27,14 @@ double buffer_force(const BeamSystem& system, const State& state, int stop) {
 }
 
 // Two bodies on one guide, between which there is no stop; on a ring they meet either way.
-void add_meetings(const BeamSystem& system, const State& before, std::pair<int, int> joints,
+void add_meetings(const BeamSystem& system, const State& before, std::pair<int, int> riders,
                   std::vector<ContactEvent>& events) {
   const BeamModel& model = system.model();
-  if (kept_apart(model, joints.first, joints.second)) return;
-  const ReferenceCurve& curve = model.beam_of(model.joints[joints.first]).curve;
-  const double now = lead(system, before, joints);
+  if (kept_apart(model, riders.first, riders.second)) return;
+  const ReferenceCurve& curve = model.beam_of(model.riders[riders.first]).curve;
+  const double now = lead(system, before, riders);
   const auto add = [&](double at, bool from_more) {
-    events.push_back({ContactEvent::Kind::bodies_meet, -1, joints, at, from_more});
+    events.push_back({ContactEvent::Kind::bodies_meet, -1, riders, at, from_more});
   };
   if (!curve.closed()) return add(0, now > 0);
   const double turns = std::floor(now / curve.length());
@@ -54,9 +54,9 @@ std::vector<ContactEvent> possible_events(const BeamSystem& system, const State&
         model.stops[i].buffer ? contact == BufferContact::pressing : system.mesh().plan.is_closed(i);
     events.push_back({pressed ? ContactEvent::Kind::leaves : ContactEvent::Kind::hits, i});
   }
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j)
     for (int i = 0; i < j; ++i)
-      if (model.joints[i].beam == model.joints[j].beam && model.beam_of(model.joints[j]).rigid &&
+      if (model.riders[i].beam == model.riders[j].beam && model.beam_of(model.riders[j]).rigid &&
           place(system, before, i) && place(system, before, j))
         add_meetings(system, before, {i, j}, events);
   return events;
@@ -69,7 +69,7 @@ bool is_pulled(const BeamSystem& system, const State& state, int stop) {
   State balanced = state;
   if (make_accelerations_consistent(system, balanced) != ConsistencyStatus::done) return true;
   const BeamModel& model = system.model();
-  const double mass = model.body_of(model.joints[stop_of(system, stop).joint]).mass,
+  const double mass = model.body_of(model.riders[stop_of(system, stop).rider]).mass,
                acceleration = model.gravity.norm() + balanced.a.lpNorm<Eigen::Infinity>();
   return contact_force(system, balanced, stop) < -contact_noise * mass * acceleration;
 }
@@ -89,16 +89,16 @@ bool comes_to(const BeamSystem& system, const State& before, const State& after,
 
 double beyond(const BeamSystem& system, const State&, const State& state, const ContactEvent& event) {
   if (event.kind == ContactEvent::Kind::bodies_meet)
-    return (event.from_more ? 1 : -1) * (event.lead - lead(system, state, event.joints));
+    return (event.from_more ? 1 : -1) * (event.lead - lead(system, state, event.riders));
   if (event.kind == ContactEvent::Kind::hits) return -distance(system, state, event.stop);
   return stop_of(system, event.stop).buffer ? -buffer_force(system, state, event.stop)
                                             : -contact_force(system, state, event.stop);
 }
 
 double tolerance(const BeamSystem& system, const State& before, const ContactEvent& event) {
-  if (event.kind == ContactEvent::Kind::bodies_meet) return touching(system.model(), event.joints.first);
+  if (event.kind == ContactEvent::Kind::bodies_meet) return touching(system.model(), event.riders.first);
   if (event.kind == ContactEvent::Kind::hits)
-    return touching(system.model(), stop_of(system, event.stop).joint);
+    return touching(system.model(), stop_of(system, event.stop).rider);
   constexpr double share = 1e-9;
   const std::optional<Buffer>& buffer = stop_of(system, event.stop).buffer;
   if (!buffer) return share * std::abs(beyond(system, before, before, event));

@@ -19,9 +19,9 @@ struct ContactEvent {
   };
   Kind kind;
   int stop = -1;
-  /// Of bodies that meet: their joints, and how far the second is ahead of the first then, from more or from
+  /// Of bodies that meet: their riders, and how far the second is ahead of the first then, from more or from
   /// less.
-  std::pair<int, int> joints = {-1, -1};
+  std::pair<int, int> riders = {-1, -1};
   double lead = 0;  ///< [m]
   bool from_more = true;
   double part = 0;  ///< of the step, about, at which it happens

@@ -9,16 +9,16 @@ namespace nurbeam {
 
 namespace {
 
-// The first place, seen from where the joint was when the mesh was made, that it has passed by now. A landing
-// just before it is not yet that: the joint may turn round there.
-std::optional<double> crossed_place(const BeamSystem& system, int joint, double s) {
+// The first place, seen from where the rider was when the mesh was made, that it has passed by now. A landing
+// just before it is not yet that: the rider may turn round there.
+std::optional<double> crossed_place(const BeamSystem& system, int rider, double s) {
   const BeamModel& model = system.model();
   const MeshPlan& plan = system.mesh().plan;
-  const Beam& beam = model.beam_of(model.joints[joint]);
-  const bool is_point = plan.modes[joint] == JointMode::point, forward = s > plan.places[joint];
-  const double beyond = s + (forward ? -2 : 2) * landing_tolerance(model, joint);
+  const Beam& beam = model.beam_of(model.riders[rider]);
+  const bool is_point = plan.modes[rider] == Carried::point, forward = s > plan.places[rider];
+  const double beyond = s + (forward ? -2 : 2) * landing_tolerance(model, rider);
   const auto inside = [&](int h) { return beam.is_ring() || (h > 0 && h < beam.home_intervals()); };
-  for (int h = beam.home_interval(plan.places[joint]) + (forward ? 1 : 0);
+  for (int h = beam.home_interval(plan.places[rider]) + (forward ? 1 : 0);
        inside(h) && (forward ? beam.home_place(h) < beyond : beam.home_place(h) > beyond);
        h += forward ? 1 : -1)
     if (is_point || beam.home_node(h).permanent) return beam.home_place(h);
@@ -30,7 +30,7 @@ std::optional<double> crossed_place(const BeamSystem& system, int joint, double 
 std::optional<Crossing> first_crossing(const BeamSystem& system, const State& before, const State& after) {
   std::optional<Crossing> first;
   double earliest = 1;
-  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
+  for (int j = 0; j < static_cast<int>(system.model().riders.size()); ++j) {
     const auto s = place(system, after, j);
     if (!s) continue;
     const std::optional<double> crossed = crossed_place(system, j, *s);
@@ -43,20 +43,20 @@ std::optional<Crossing> first_crossing(const BeamSystem& system, const State& be
   return first;
 }
 
-std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int joint, bool forward) {
-  const ReferenceCurve& curve = system.model().beam_of(system.model().joints[joint]).curve;
+std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int rider, bool forward) {
+  const ReferenceCurve& curve = system.model().beam_of(system.model().riders[rider]).curve;
   const double end = forward ? curve.length() : 0;
-  if (curve.closed() || std::abs(*place(system, state, joint) - end) > 1e-9 * curve.length()) return {};
-  return Crossing{joint, end, forward};
+  if (curve.closed() || std::abs(*place(system, state, rider) - end) > 1e-9 * curve.length()) return {};
+  return Crossing{rider, end, forward};
 }
 
 std::optional<Crossing> end_passed(const BeamSystem& system, const State& state) {
   const BeamModel& model = system.model();
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
-    const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
-    const std::optional<PlaceMotion>& motion = model.joints[j].motion;
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
+    const ReferenceCurve& curve = model.beam_of(model.riders[j]).curve;
+    const std::optional<PlaceMotion>& motion = model.riders[j].motion;
     const bool by_table = motion && !motion->rows().empty();  // which is known to stay on the beam
-    if (curve.closed() || by_table || system.mesh().plan.modes[j] != JointMode::point) continue;
+    if (curve.closed() || by_table || system.mesh().plan.modes[j] != Carried::point) continue;
     const double s = *place(system, state, j), beyond = landing_tolerance(model, j);
     if (s < -beyond) return Crossing{j, 0, false};
     if (s > curve.length() + beyond) return Crossing{j, curve.length(), true};
@@ -65,17 +65,17 @@ std::optional<Crossing> end_passed(const BeamSystem& system, const State& state)
 }
 
 bool is_held(const BeamModel& model, const Crossing& end) {
-  const Beam& beam = model.beam_of(model.joints[end.joint]);
+  const Beam& beam = model.beam_of(model.riders[end.rider]);
   const HomeNode& node = end.forward ? beam.home.back() : beam.home.front();
   return node.hold != Hold::nothing || node.joined;
 }
 
-double landing_tolerance(const BeamModel& model, int joint) {
-  return 1e-10 * model.beam_of(model.joints[joint]).curve.length();
+double landing_tolerance(const BeamModel& model, int rider) {
+  return 1e-10 * model.beam_of(model.riders[rider]).curve.length();
 }
 
 double distance_beyond(const BeamSystem& system, const State& state, const Crossing& crossing) {
-  const double s = *place(system, state, crossing.joint);
+  const double s = *place(system, state, crossing.rider);
   return crossing.forward ? s - crossing.s : crossing.s - s;
 }
 
@@ -83,7 +83,7 @@ State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& 
              const Crossing& crossing) {
   return land_before(
       integrator, taken, [&](const State& state) { return distance_beyond(system, state, crossing); },
-      landing_tolerance(system.model(), crossing.joint));
+      landing_tolerance(system.model(), crossing.rider));
 }
 
 State between(const State& from, const State& to, double part) {
@@ -97,9 +97,9 @@ State between(const State& from, const State& to, double part) {
 
 State carried_over(const BeamSystem& system, State state, double step, const Crossing& crossing) {
   const double gap =
-      landing_tolerance(system.model(), crossing.joint) - distance_beyond(system, state, crossing);
+      landing_tolerance(system.model(), crossing.rider) - distance_beyond(system, state, crossing);
   const double instant =
-      std::clamp(gap / std::abs(place_rate(system, state, crossing.joint)), 0.0, 1e-6 * step);
+      std::clamp(gap / std::abs(place_rate(system, state, crossing.rider)), 0.0, 1e-6 * step);
   state.q += instant * state.v;
   state.t += instant;
   return state;

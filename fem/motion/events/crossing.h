@@ -8,7 +8,7 @@ namespace nurbeam {
 
 /// A sliding body that passes a place of its beam.
 struct Crossing {
-  int joint;
+  int rider;
   double s;      ///< of the place [m]
   bool forward;  ///< whether s of the body grows
 };
@@ -19,17 +19,17 @@ struct Crossing {
 /// drifts at first order.
 std::optional<Crossing> first_crossing(const BeamSystem& system, const State& before, const State& after);
 
-/// The end of its beam, the last one or the first, that a joint's body has come to; nothing elsewhere.
-std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int joint, bool forward);
+/// The end of its beam, the last one or the first, that a rider's body has come to; nothing elsewhere.
+std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int rider, bool forward);
 
-/// The first joint whose body has come beyond an end of its beam, at that end. A prescribed motion does not.
+/// The first rider whose body has come beyond an end of its beam, at that end. A prescribed motion does not.
 std::optional<Crossing> end_passed(const BeamSystem& system, const State& state);
 
 /// Whether a beam's end is held, by a support or by another beam.
 bool is_held(const BeamModel& model, const Crossing& end);
 
 /// A body that lands does so nearer to its place than this [m].
-double landing_tolerance(const BeamModel& model, int joint);
+double landing_tolerance(const BeamModel& model, int rider);
 
 /// How far the body is beyond the place; negative before it [m].
 double distance_beyond(const BeamSystem& system, const State& state, const Crossing& crossing);

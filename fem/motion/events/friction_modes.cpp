@@ -16,108 +16,108 @@ namespace {
 
 constexpr double rest_speed = 1e-9;  // [m/s]: slower is at rest
 
-double stick_stiffness(const BeamModel& model, int joint) {
-  return model.joints[joint].friction->stiffness(model.body_of(model.joints[joint]).mass);
+double stick_stiffness(const BeamModel& model, int rider) {
+  return model.riders[rider].friction->stiffness(model.body_of(model.riders[rider]).mass);
 }
 
 // A body that slides one way, with the spring as far out as friction goes: the bound follows with the forces.
-FrictionMemory sliding(const BeamModel& model, int joint, double s, int way, double bound) {
-  return {way * bound / stick_stiffness(model, joint), s, way};
+FrictionMemory sliding(const BeamModel& model, int rider, double s, int way, double bound) {
+  return {way * bound / stick_stiffness(model, rider), s, way};
 }
 
 // What is held needs no stop.
 void open_held_contacts(const BeamModel& model, const std::vector<bool>& held, MeshPlan& plan) {
   for (std::size_t i = 0; i < plan.closed.size(); ++i) {
     const Stop& stop = model.stops[i];
-    if (held[stop.joint] && (stop.other < 0 || held[stop.other])) plan.closed[i] = false;
+    if (held[stop.rider] && (stop.other < 0 || held[stop.other])) plan.closed[i] = false;
   }
 }
 
-// The forces at a moment at which some joints are held.
+// The forces at a moment at which some riders are held.
 struct HeldMoment {
   BeamSystem system;
   State state;
 };
 
-std::optional<HeldMoment> hold(const MeshedState& at, const std::vector<int>& joints, double step) {
-  std::vector<bool> held(at.system->model().joints.size(), false);
-  for (const int j : joints) held[j] = true;
+std::optional<HeldMoment> hold(const MeshedState& at, const std::vector<int>& riders, double step) {
+  std::vector<bool> held(at.system->model().riders.size(), false);
+  for (const int j : riders) held[j] = true;
   MeshPlan plan = present_plan(*at.system, at.state);
   open_held_contacts(at.system->model(), held, plan);
   HeldMoment moment{BeamSystem(at.system->shared_model(), std::move(plan), held), at.state};
   moment.state.lambda = Eigen::VectorXd::Zero(moment.system.constraint_count());
-  for (const int j : joints) {
-    moment.state.v[moment.system.mesh().joints[j].place] = 0;
+  for (const int j : riders) {
+    moment.state.v[moment.system.mesh().riders[j].place] = 0;
     set_friction_memory(at.system->model(), moment.state.memory, j, {0, *place(*at.system, at.state, j), 0});
   }
   if (make_accelerations_smooth(moment.system, step, moment.state) != ConsistencyStatus::done) return {};
   return moment;
 }
 
-// As many of the joints as can be held at once: where a rod ties a body to another one that is held, its own
+// As many of the riders as can be held at once: where a rod ties a body to another one that is held, its own
 // place needs no hold.
-std::vector<int> independent(const MeshedState& at, const std::vector<int>& joints, double step) {
-  if (hold(at, joints, step)) return joints;
+std::vector<int> independent(const MeshedState& at, const std::vector<int>& riders, double step) {
+  if (hold(at, riders, step)) return riders;
   std::vector<int> chosen;
-  for (const int j : joints) {
+  for (const int j : riders) {
     chosen.push_back(j);
     if (!hold(at, chosen, step)) chosen.pop_back();
   }
   return chosen;
 }
 
-// Those with friction that touch a joint's body, by others too: when it comes to rest, so do they.
-std::vector<int> come_to_rest_with(const BeamSystem& system, int joint) {
+// Those with friction that touch a rider's body, by others too: when it comes to rest, so do they.
+std::vector<int> come_to_rest_with(const BeamSystem& system, int rider) {
   const BeamModel& model = system.model();
-  std::vector<bool> together(model.joints.size(), false);
-  together[joint] = true;
+  std::vector<bool> together(model.riders.size(), false);
+  together[rider] = true;
   for (bool more = true; more;) {
     more = false;
     for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
       const Stop& stop = model.stops[i];
       if (!system.mesh().plan.is_closed(i) || stop.other < 0) continue;
-      if (together[stop.joint] == together[stop.other]) continue;
-      together[stop.joint] = together[stop.other] = more = true;
+      if (together[stop.rider] == together[stop.other]) continue;
+      together[stop.rider] = together[stop.other] = more = true;
     }
   }
-  std::vector<int> joints = joints_with_friction(system);
-  std::erase_if(joints, [&](int j) { return !together[j]; });
-  return joints;
+  std::vector<int> riders = joints_with_friction(system);
+  std::erase_if(riders, [&](int j) { return !together[j]; });
+  return riders;
 }
 
 // One that has been held by its friction slides, the way that it is pulled.
-void break_loose(MeshedState& at, int joint) {
-  const FrictionForce friction = *sliding_friction(*at.system, at.state, joint);
-  set_friction_memory(at.system->model(), at.state.memory, joint,
-                      sliding(at.system->model(), joint, *place(*at.system, at.state, joint),
+void break_loose(MeshedState& at, int rider) {
+  const FrictionForce friction = *sliding_friction(*at.system, at.state, rider);
+  set_friction_memory(at.system->model(), at.state.memory, rider,
+                      sliding(at.system->model(), rider, *place(*at.system, at.state, rider),
                               friction.trial > 0 ? 1 : -1, friction.bound));
 }
 
 // One that has come to rest and would slide on the same way, which only round-off does where friction is just
 // what it takes to hold it: it would come to rest for ever.
-void stick_at_bound(MeshedState& at, int joint, int way) {
+void stick_at_bound(MeshedState& at, int rider, int way) {
   const BeamModel& model = at.system->model();
-  const double bound = sliding_friction(*at.system, at.state, joint)->bound;
-  set_friction_memory(model, at.state.memory, joint,
-                      {way * bound / stick_stiffness(model, joint), *place(*at.system, at.state, joint), 0});
+  const double bound = sliding_friction(*at.system, at.state, rider)->bound;
+  set_friction_memory(model, at.state.memory, rider,
+                      {way * bound / stick_stiffness(model, rider), *place(*at.system, at.state, rider), 0});
 }
 
 }  // namespace
 
 std::vector<bool> blocked_joints(const BeamSystem& system) {
   const BeamModel& model = system.model();
-  std::vector<bool> blocked(model.joints.size(), false);
+  std::vector<bool> blocked(model.riders.size(), false);
   for (bool more = true; more;) {
     more = false;
     for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
       const Stop& stop = model.stops[i];
       if (!system.mesh().plan.is_closed(i)) continue;
-      const auto block = [&](int joint) {
-        more = more || !blocked[joint];
-        blocked[joint] = true;
+      const auto block = [&](int rider) {
+        more = more || !blocked[rider];
+        blocked[rider] = true;
       };
-      if (stop.other < 0 || blocked[stop.other]) block(stop.joint);
-      if (stop.other >= 0 && blocked[stop.joint]) block(stop.other);
+      if (stop.other < 0 || blocked[stop.other]) block(stop.rider);
+      if (stop.other >= 0 && blocked[stop.rider]) block(stop.other);
     }
   }
   return blocked;
@@ -125,12 +125,12 @@ std::vector<bool> blocked_joints(const BeamSystem& system) {
 
 std::vector<int> joints_with_friction(const BeamSystem& system) {
   const MeshPlan& plan = system.mesh().plan;
-  std::vector<int> joints;
-  for (int j = 0; j < static_cast<int>(system.model().joints.size()); ++j) {
-    const bool slides = plan.modes[j] == JointMode::node || plan.modes[j] == JointMode::point;
-    if (system.model().joints[j].friction && slides && !plan.holds(j)) joints.push_back(j);
+  std::vector<int> riders;
+  for (int j = 0; j < static_cast<int>(system.model().riders.size()); ++j) {
+    const bool slides = plan.modes[j] == Carried::node || plan.modes[j] == Carried::point;
+    if (system.model().riders[j].friction && slides && !plan.holds(j)) riders.push_back(j);
   }
-  return joints;
+  return riders;
 }
 
 bool start_memory(MeshedState& at, double step) {
@@ -139,19 +139,19 @@ bool start_memory(MeshedState& at, double step) {
   return settle_friction(at, joints_with_friction(*at.system), step, false);
 }
 
-bool settle_friction(MeshedState& at, const std::vector<int>& joints, double step, bool at_rest) {
+bool settle_friction(MeshedState& at, const std::vector<int>& riders, double step, bool at_rest) {
   const BeamModel& model = at.system->model();
   const auto remember = [&](int j, const FrictionMemory& memory) {
     set_friction_memory(at.system->model(), at.state.memory, j, memory);
   };
   std::vector<int> still;
   const std::vector<bool> blocked = blocked_joints(*at.system);
-  for (const int j : joints) {
+  for (const int j : riders) {
     const double s = *place(*at.system, at.state, j), rate = place_rate(*at.system, at.state, j);
     const bool stands = at_rest || std::abs(rate) < rest_speed;
     if (blocked[j])
       remember(j, {0, s, 0});
-    else if (stands && model.joints[j].friction->can_stick() && !model.joints[j].motion)
+    else if (stands && model.riders[j].friction->can_stick() && !model.riders[j].motion)
       still.push_back(j);
     else
       remember(j, sliding(model, j, s, stands ? 0 : rate < 0 ? -1 : 1, 0));
@@ -197,24 +197,24 @@ bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, d
   return settle_friction(at, changed, step, false);
 }
 
-double holding_capacity(const BeamSystem& system, const State& state, int joint, bool sticking) {
+double holding_capacity(const BeamSystem& system, const State& state, int rider, bool sticking) {
   State asked = state;
   asked.memory = no_memory(system.model());
-  set_friction_memory(system.model(), asked.memory, joint,
-                      {0, *place(system, state, joint), sticking ? 0 : 1});
-  const std::optional<FrictionForce> friction = sliding_friction(system, asked, joint);
+  set_friction_memory(system.model(), asked.memory, rider,
+                      {0, *place(system, state, rider), sticking ? 0 : 1});
+  const std::optional<FrictionForce> friction = sliding_friction(system, asked, rider);
   return friction ? friction->bound * friction->per_along : 0;
 }
 
 void hold_by_friction(MeshedState& at, const std::vector<bool>& except) {
-  const std::vector<int> joints = joints_with_friction(*at.system);
-  if (joints.empty()) return;
+  const std::vector<int> riders = joints_with_friction(*at.system);
+  if (riders.empty()) return;
   State held = at.state;
   held.memory = no_memory(at.system->model());
-  for (const int j : joints) {
+  for (const int j : riders) {
     const double s = *place(*at.system, at.state, j);
     set_friction_memory(at.system->model(), held.memory, j, {0, s, 0});
-    if (except[j] || at.system->model().joints[j].motion) continue;
+    if (except[j] || at.system->model().riders[j].motion) continue;
     const double along =
         holding_force(*at.system, at.state, j) / sliding_friction(*at.system, held, j)->per_along;
     set_friction_memory(at.system->model(), held.memory, j,
@@ -225,17 +225,17 @@ void hold_by_friction(MeshedState& at, const std::vector<bool>& except) {
 
 double beyond(const BeamSystem& system, const State& before, const State& state,
               const FrictionChange& change) {
-  const int way = sliding_way(system, before, change.joint);
-  if (change.turns) return -way * place_rate(system, state, change.joint);
+  const int way = sliding_way(system, before, change.rider);
+  if (change.turns) return -way * place_rate(system, state, change.rider);
   State in_step = state;
   in_step.memory = before.memory;
-  const FrictionForce friction = *sliding_friction(system, in_step, change.joint);
+  const FrictionForce friction = *sliding_friction(system, in_step, change.rider);
   return std::abs(friction.trial) - friction.bound;
 }
 
 double tolerance(const BeamSystem& system, const State& before, const FrictionChange& change) {
   if (change.turns) return rest_speed;
-  return 1e-9 * sliding_friction(system, before, change.joint)->bound;
+  return 1e-9 * sliding_friction(system, before, change.rider)->bound;
 }
 
 std::optional<FrictionChange> first_friction_change(const BeamSystem& system, const State& before,
@@ -243,8 +243,8 @@ std::optional<FrictionChange> first_friction_change(const BeamSystem& system, co
   std::optional<FrictionChange> first;
   const std::vector<bool> blocked = blocked_joints(system);
   for (const int j : joints_with_friction(system)) {
-    const SlidingJoint& joint = system.model().joints[j];
-    if (blocked[j] || joint.motion || !joint.friction->can_stick()) continue;
+    const Rider& rider = system.model().riders[j];
+    if (blocked[j] || rider.motion || !rider.friction->can_stick()) continue;
     FrictionChange change{j, sliding_way(system, before, j) != 0, 0};
     const double from = beyond(system, before, before, change), to = beyond(system, before, after, change),
                  near = tolerance(system, before, change);
@@ -258,28 +258,28 @@ std::optional<FrictionChange> first_friction_change(const BeamSystem& system, co
 }
 
 std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, double step) {
-  const int way = sliding_way(*at.system, at.state, change.joint);
+  const int way = sliding_way(*at.system, at.state, change.rider);
   if (!change.turns)
-    break_loose(at, change.joint);
-  else if (!settle_friction(at, come_to_rest_with(*at.system, change.joint), step, true))
+    break_loose(at, change.rider);
+  else if (!settle_friction(at, come_to_rest_with(*at.system, change.rider), step, true))
     return {};
-  if (change.turns && sliding_way(*at.system, at.state, change.joint) == way)
-    stick_at_bound(at, change.joint, way);
-  return sliding_way(*at.system, at.state, change.joint) == 0 ? EventKind::sticks : EventKind::slides;
+  if (change.turns && sliding_way(*at.system, at.state, change.rider) == way)
+    stick_at_bound(at, change.rider, way);
+  return sliding_way(*at.system, at.state, change.rider) == 0 ? EventKind::sticks : EventKind::slides;
 }
 
 std::vector<int> changed_ways(const BeamSystem& system, const State& before, const State& after) {
-  std::vector<int> joints = joints_with_friction(system);
+  std::vector<int> riders = joints_with_friction(system);
   const std::vector<bool> blocked = blocked_joints(system);
-  std::erase_if(joints, [&](int j) {
+  std::erase_if(riders, [&](int j) {
     return blocked[j] || sliding_way(system, before, j) == sliding_way(system, after, j) ||
-           !system.model().joints[j].friction->can_stick();
+           !system.model().riders[j].friction->can_stick();
   });
-  return joints;
+  return riders;
 }
 
-int sliding_way(const BeamSystem& system, const State& state, int joint) {
-  return friction_memory(system.model(), state.memory, joint).slides;
+int sliding_way(const BeamSystem& system, const State& state, int rider) {
+  return friction_memory(system.model(), state.memory, rider).slides;
 }
 
 }  // namespace nurbeam

@@ -8,10 +8,10 @@
 /// Which bodies stick to their beams and which slide.
 namespace nurbeam {
 
-/// The joints whose bodies have friction and are free to slide.
+/// The riders whose bodies have friction and are free to slide.
 std::vector<int> joints_with_friction(const BeamSystem& system);
 
-/// Per joint: its body rests against a hard stop, or against one that does. What friction does to it then is
+/// Per rider: its body rests against a hard stop, or against one that does. What friction does to it then is
 /// not known, and taken for nothing.
 std::vector<bool> blocked_joints(const BeamSystem& system);
 
@@ -21,7 +21,7 @@ std::vector<bool> blocked_joints(const BeamSystem& system);
 [[nodiscard]] bool start_memory(MeshedState& at, double step);
 /// The same for some of the bodies, which the memory knows; with `at_rest` they count as that however they
 /// move.
-[[nodiscard]] bool settle_friction(MeshedState& at, const std::vector<int>& joints, double step,
+[[nodiscard]] bool settle_friction(MeshedState& at, const std::vector<int>& riders, double step,
                                    bool at_rest);
 
 /// The same after stops have been met or left, for the bodies whose velocities that has changed, or that rest
@@ -30,13 +30,13 @@ std::vector<bool> blocked_joints(const BeamSystem& system);
 
 /// What the friction of a body at rest holds along its beam at most, as it sticks or slides, under the
 /// multipliers of the state [N].
-double holding_capacity(const BeamSystem& system, const State& state, int joint, bool sticking);
+double holding_capacity(const BeamSystem& system, const State& state, int rider, bool sticking);
 /// Gives a state at rest, in which bodies are held, the memory of friction that holds them instead, but for
 /// those `except`.
 void hold_by_friction(MeshedState& at, const std::vector<bool>& except);
 /// A body that turns round in a step while it slides, or that breaks loose.
 struct FrictionChange {
-  int joint;
+  int rider;
   bool turns;   ///< else it breaks loose
   double part;  ///< of the step, about, at which it does
 };
@@ -54,6 +54,6 @@ std::optional<EventKind> apply(MeshedState& at, const FrictionChange& change, do
 /// Those that stick or slide after a step as they did not before, though it did not end there.
 std::vector<int> changed_ways(const BeamSystem& system, const State& before, const State& after);
 /// Which way a body slides: 0 where it sticks.
-int sliding_way(const BeamSystem& system, const State& state, int joint);
+int sliding_way(const BeamSystem& system, const State& state, int rider);
 
 }  // namespace nurbeam

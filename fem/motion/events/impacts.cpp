@@ -20,23 +20,23 @@ constexpr double least_rebound = 1e-10;    // of what else moves, that is follow
 double fastest(const BeamSystem& system, const State& state) {
   double most = 0;
   for (const Stop& stop : system.model().stops)
-    for (const int joint : {stop.joint, stop.other})
-      if (const int place = joint < 0 ? -1 : system.mesh().joints[joint].place; place >= 0)
+    for (const int rider : {stop.rider, stop.other})
+      if (const int place = rider < 0 ? -1 : system.mesh().riders[rider].place; place >= 0)
         most = std::max(most, std::abs(state.v[place]));
   return most;
 }
 
 // Whether closed contacts keep the distance of a stop already, as that of the second of two in one place.
 bool others_keep(const BeamModel& model, const std::vector<bool>& closed, int stop) {
-  const int beam = static_cast<int>(model.joints.size());
-  std::vector<bool> tied(model.joints.size() + 1, false);  // to the joint; the last one is the beam
+  const int beam = static_cast<int>(model.riders.size());
+  std::vector<bool> tied(model.riders.size() + 1, false);  // to the rider; the last one is the beam
   const auto other = [&](int i) { return model.stops[i].other < 0 ? beam : model.stops[i].other; };
-  tied[model.stops[stop].joint] = true;
+  tied[model.stops[stop].rider] = true;
   for (bool more = true; more;) {
     more = false;
     for (int i = 0; i < static_cast<int>(closed.size()); ++i) {
-      if (!closed[i] || i == stop || tied[model.stops[i].joint] == tied[other(i)]) continue;
-      tied[model.stops[i].joint] = tied[other(i)] = more = true;
+      if (!closed[i] || i == stop || tied[model.stops[i].rider] == tied[other(i)]) continue;
+      tied[model.stops[i].rider] = tied[other(i)] = more = true;
     }
   }
   return tied[other(stop)];
@@ -54,7 +54,7 @@ Unnoticed unnoticed(const MeshedState& at, double step) {
   Unnoticed least;
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
     least.speed.push_back(unnoticed_speed(at, i, step));
-    least.impulse.push_back(model.body_of(model.joints[model.stops[i].joint]).mass * least.speed[i]);
+    least.impulse.push_back(model.body_of(model.riders[model.stops[i].rider]).mass * least.speed[i]);
     if (at.system->mesh().plan.is_closed(i))
       least.impulse[i] += std::max(0.0, contact_force(*at.system, at.state, i)) * shortest_rebound / 2 * step;
   }
@@ -136,18 +136,18 @@ std::optional<MeshedState> after_impact(const MeshedState& at, int stop, const U
 
 }  // namespace
 
-double touching(const BeamModel& model, int joint) {
-  return 1e-13 * model.beam_of(model.joints[joint]).curve.length();
+double touching(const BeamModel& model, int rider) {
+  return 1e-13 * model.beam_of(model.riders[rider]).curve.length();
 }
 
 bool touches(const BeamSystem& system, const State& state, int stop) {
   return is_in_place(system.mesh(), stop_of(system, stop)) &&
-         distance(system, state, stop) <= touching(system.model(), stop_of(system, stop).joint);
+         distance(system, state, stop) <= touching(system.model(), stop_of(system, stop).rider);
 }
 
 double unnoticed_speed(const MeshedState& at, int stop, double step) {
   const double round_off = contact_noise * fastest(*at.system, at.state);
-  const double kept = touching(at.system->model(), stop_of(*at.system, stop).joint);
+  const double kept = touching(at.system->model(), stop_of(*at.system, stop).rider);
   return step > 0 ? std::max(round_off, kept / step) : round_off;
 }
 

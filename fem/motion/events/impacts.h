@@ -20,7 +20,7 @@ inline double opening_rate(const BeamSystem& system, const State& state, int sto
   return distance_of(system, stop).rate(state.q, state.v);
 }
 /// A body is at its stop when it is nearer than this [m].
-double touching(const BeamModel& model, int joint);
+double touching(const BeamModel& model, int rider);
 /// Whether the bodies of a stop are on their beams and at it.
 bool touches(const BeamSystem& system, const State& state, int stop);
 

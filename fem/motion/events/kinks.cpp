@@ -34,10 +34,10 @@ std::vector<double> kink_times(const BeamModel& model) {
   const auto add = [&](const TimeTable& table) {
     for (const auto& [time, value] : table) times.push_back(time);
   };
-  for (const SlidingJoint& joint : model.joints) {
-    if (joint.motion) add(joint.motion->rows());
-    if (joint.friction) add(joint.friction->force);
-    if (joint.release) times.push_back(*joint.release);
+  for (const Rider& rider : model.riders) {
+    if (rider.motion) add(rider.motion->rows());
+    if (rider.friction) add(rider.friction->force);
+    if (rider.release) times.push_back(*rider.release);
   }
   for (const Force& force : model.forces)
     std::visit(
@@ -73,9 +73,9 @@ double end_of_jump(const std::vector<double>& times, double time, double resolut
 std::vector<MotionKink> motion_kinks(const BeamModel& model, double time) {
   constexpr double same_speed = 1e-12;  // relative
   std::vector<MotionKink> kinks;
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
-    if (!model.joints[j].motion) continue;
-    const TimeTable& table = model.joints[j].motion->rows();
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
+    if (!model.riders[j].motion) continue;
+    const TimeTable& table = model.riders[j].motion->rows();
     for (std::size_t row = 0; row < table.size(); ++row) {
       if (table[row].first != time) continue;
       const auto [before, after] = slopes_at(table, row);

@@ -16,7 +16,7 @@ double end_of_jump(const std::vector<double>& times, double time, double resolut
 
 /// A prescribed motion whose speed jumps.
 struct MotionKink {
-  int joint;
+  int rider;
   double before, after;  ///< ds/dt [m/s]
 };
 /// Those at one of the kink times.

@@ -20,19 +20,19 @@ EventKind kind_of(MeshChange change) {
   return EventKind::split;
 }
 
-RunEvent event_before(const MeshedState& at, EventKind kind, int joint) {
-  return event_before(at, kind, joint,
-                      motion_sums(*at.system, at.state, at.system->model().joints[joint].beam));
+RunEvent event_before(const MeshedState& at, EventKind kind, int rider) {
+  return event_before(at, kind, rider,
+                      motion_sums(*at.system, at.state, at.system->model().riders[rider].beam));
 }
 
-RunEvent event_before(const MeshedState& at, EventKind kind, int joint, const MotionSums& sums) {
-  const SlidingJoint& sliding = at.system->model().joints[joint];
+RunEvent event_before(const MeshedState& at, EventKind kind, int rider, const MotionSums& sums) {
+  const Rider& sliding = at.system->model().riders[rider];
   RunEvent event;
   event.time = at.state.t;
   event.kind = kind;
   event.beam = sliding.beam;
   event.body = sliding.body;
-  if (const auto s = place(*at.system, at.state, joint))
+  if (const auto s = place(*at.system, at.state, rider))
     event.s = at.system->model().beam_of(sliding).curve.wrapped(*s);
   event.energy_before = sums.energy.mechanical();
   event.momentum_before = sums.momentum;

@@ -7,11 +7,11 @@ namespace nurbeam {
 /// What a change of the mesh is called among the events. Precondition: not MeshChange::none.
 EventKind kind_of(MeshChange change);
 
-/// An event with the body of a joint that is about to happen: what is known before it.
-RunEvent event_before(const MeshedState& at, EventKind kind, int joint);
+/// An event with the body of a rider that is about to happen: what is known before it.
+RunEvent event_before(const MeshedState& at, EventKind kind, int rider);
 
 /// The same where the sums over its beam are known.
-RunEvent event_before(const MeshedState& at, EventKind kind, int joint, const MotionSums& sums);
+RunEvent event_before(const MeshedState& at, EventKind kind, int rider, const MotionSums& sums);
 
 /// Adds what is known after it.
 void finish_event(const MeshedState& at, RunEvent& event);

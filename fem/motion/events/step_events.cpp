@@ -34,10 +34,10 @@ State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& 
   return land_before(integrator, taken, beyond_it, near, std::holds_alternative<ContactEvent>(event));
 }
 
-int joint_of(const BeamModel& model, const StepEvent& event) {
-  if (const auto* change = std::get_if<FrictionChange>(&event)) return change->joint;
+int rider_of(const BeamModel& model, const StepEvent& event) {
+  if (const auto* change = std::get_if<FrictionChange>(&event)) return change->rider;
   const ContactEvent& contact = std::get<ContactEvent>(event);
-  return contact.stop < 0 ? contact.joints.first : model.stops[contact.stop].joint;
+  return contact.stop < 0 ? contact.riders.first : model.stops[contact.stop].rider;
 }
 
 }  // namespace nurbeam

@@ -26,7 +26,7 @@ std::optional<StepEvent> first_event(const BeamSystem& system, const State& befo
 /// that begins at the event.
 State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,
              const StepEvent& event);
-/// The body of which joint it is about; not of connectors.
-int joint_of(const BeamModel& model, const StepEvent& event);
+/// The body of which rider it is about; not of connectors.
+int rider_of(const BeamModel& model, const StepEvent& event);
 
 }  // namespace nurbeam

@@ -18,7 +18,7 @@ enum class SimulationStatus { done, not_converged, interrupted };
 
 /// Where a sliding body is at a moment.
 struct BodyPlace {
-  int joint;
+  int rider;
   double s, rate;  ///< [m] (on a ring in [0, length)), [m/s]
 };
 
@@ -28,16 +28,16 @@ struct Failure {
     initial_velocities,  ///< cannot be made consistent with the constraints
     mass_matrix,         ///< is singular
     step,                ///< and shorter ones fail: `step`
-    impact,              ///< of the joint's body at the end of its beam is singular
+    impact,              ///< of the rider's body at the end of its beam is singular
     projection,          ///< of velocities on a new mesh is singular
     mesh,                ///< length control finds none
-    mesh_energy,         ///< a change of the mesh for the joint's body would change the energy by `energy`
+    mesh_energy,         ///< a change of the mesh for the rider's body would change the energy by `energy`
     energy,              ///< has come from nowhere, `energy`, more than all that moves
-    endless_events,      ///< of the joint's body at one moment
-    bodies_meet,         ///< those of two joints on one beam: they come `nearest` or nearer
+    endless_events,      ///< of the rider's body at one moment
+    bodies_meet,         ///< those of two riders on one beam: they come `nearest` or nearer
     equilibrium,         ///< is not found: `equilibrium`
     resting_place,       ///< of a sliding body is not found
-    leaves_beam,         ///< the joint's body, at a free end of its beam, where nothing holds it
+    leaves_beam,         ///< the rider's body, at a free end of its beam, where nothing holds it
     free_lengths,        ///< of connectors are not found
     wrong_sign,          ///< of `force` in the `connector` whose length the equilibrium gives
     unstable_state,      ///< vibrations about it would grow with the rate `growth`
@@ -49,7 +49,7 @@ struct Failure {
   Kind kind;
   double time = 0;  ///< [s]
   std::vector<BodyPlace> places = {};
-  int joint = -1, other = -1;
+  int rider = -1, other = -1;
   double distance = 0, nearest = 0;  ///< between the bodies of these, and at which a run can go on [m]
   StepStatus step = StepStatus::converged;
   StaticReport equilibrium = {};

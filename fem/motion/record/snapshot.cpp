@@ -149,7 +149,7 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state, const Pro
 
 ReactionRecord record_reaction(const BeamSystem& system, const State& state, int i) {
   const Constraint& constraint = system.model().constraints[i];
-  const Attachment at = std::visit([](const auto& c) { return c.place(); }, constraint);
+  const Grip at = std::visit([](const auto& c) { return c.place(); }, constraint);
   const Reaction given = reaction(system, state, state.lambda, i);
   const Eigen::Vector3d r = at.body >= 0 ? vector_at(system, state.q, system.mesh().bodies[at.body])
                                          : material_point(system, state, at.beam, at.s).r;
@@ -207,16 +207,16 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
                                                 : record_place(system, state, probes[i]));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j) {
-    BodyRecord& body = snapshot.bodies[model.joints[j].body];
-    if (const auto s = place(system, state, j)) body.s = model.beam_of(model.joints[j]).curve.wrapped(*s);
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
+    BodyRecord& body = snapshot.bodies[model.riders[j].body];
+    if (const auto s = place(system, state, j)) body.s = model.beam_of(model.riders[j]).curve.wrapped(*s);
     body.joint_force = joint_force(system, state, j);
     body.holding_force = holding_force(system, state, j);
     if (const std::optional<FrictionForce> friction = sliding_friction(system, state, j)) {
       body.friction_force = friction->along;
       body.stuck = friction->memory.slides == 0 ? 1 : 0;
     }
-    if (model.joints[j].motion && body.s) body.drive_force = body.holding_force;
+    if (model.riders[j].motion && body.s) body.drive_force = body.holding_force;
   }
   for (int i = 0; contents.reactions && i < static_cast<int>(model.constraints.size()); ++i)
     snapshot.reactions.push_back(record_reaction(system, state, i));

@@ -62,7 +62,7 @@ class NodePatch {
   void take(int beam, const MeshNode& node, bool is_added) {
     const Hold hold = node.home >= 0 ? system_.model().beams[beam].home[node.home].hold : Hold::nothing;
     for (int k = 0; k < system_.dimension(); ++k) {
-      if (hold == Hold::nothing && (node.joint < 0 || is_added)) free_.push_back(node.r + k);
+      if (hold == Hold::nothing && (node.rider < 0 || is_added)) free_.push_back(node.r + k);
       if (hold == Hold::clamp) continue;
       slopes_.insert({node.slope_left + k, node.slope_right + k});
     }

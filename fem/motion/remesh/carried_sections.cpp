@@ -111,7 +111,7 @@ class PresentSections {
 
 int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted, int likely) {
   const auto is_same = [&](const MeshNode& node) {
-    return node.home == wanted.home && node.joint == wanted.joint;
+    return node.home == wanted.home && node.rider == wanted.rider;
   };
   if (likely < static_cast<int>(nodes.size()) && is_same(nodes[likely])) return likely;
   // In both meshes they are ordered by s, which that of a home node is in each.

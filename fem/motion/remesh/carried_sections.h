@@ -25,7 +25,7 @@ struct CarriedTwist {
 CarriedTwist carried_twist(const BeamSystem& system, const State& state, const MeshSpan& span,
                            const State& next);
 
-/// The node for the same home node or the same joint; -1 where there is none. `likely`: where it may be.
+/// The node for the same home node or the same rider; -1 where there is none. `likely`: where it may be.
 int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted, int likely = 0);
 
 }  // namespace nurbeam

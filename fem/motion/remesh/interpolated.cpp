@@ -66,8 +66,8 @@ struct NodeOnCurve {
   MaterialPoint<3> point;
 
   NodeOnCurve(const BeamSystem& from, const State& state, int beam, const MeshNode& node)
-      : s(node.joint >= 0 ? state.q[from.mesh().joints[node.joint].place] : node.s),
-        rate(node.joint >= 0 ? place_rate(from, state, node.joint) : 0),
+      : s(node.rider >= 0 ? state.q[from.mesh().riders[node.rider].place] : node.s),
+        rate(node.rider >= 0 ? place_rate(from, state, node.rider) : 0),
         point(material_point(from, state, beam, s)) {}
 
   Eigen::Vector3d velocity() const { return point.velocity + rate * point.rs; }
@@ -153,9 +153,9 @@ void take_bodies(const State& state, const Mesh& old, const Mesh& mesh, State& n
   KeptCoordinates kept(state, next);
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
     kept.take(mesh.bodies[body], old.bodies[body], D);
-  for (std::size_t j = 0; j < mesh.joints.size(); ++j)
-    if (mesh.joints[j].place >= 0 && old.joints[j].place >= 0)
-      kept.take(mesh.joints[j].place, old.joints[j].place, 1);
+  for (std::size_t j = 0; j < mesh.riders.size(); ++j)
+    if (mesh.riders[j].place >= 0 && old.riders[j].place >= 0)
+      kept.take(mesh.riders[j].place, old.riders[j].place, 1);
 }
 
 // The bubbles of twist: those of elements that the old mesh had too, or its twist.

@@ -21,34 +21,34 @@ MeshPlan plan_at(const BeamSystem& system, const State& state) {
   return plan;
 }
 
-// The rules of length control for one joint, seen from its two neighbours. Home nodes and places of a ring go
-// on over the seam (Beam::home_place), as seen from the joint.
-class JointRules {
+// The rules of length control for one rider, seen from its two neighbours. Home nodes and places of a ring go
+// on over the seam (Beam::home_place), as seen from the rider.
+class RiderRules {
  public:
-  JointRules(const BeamSystem& system, const State& state, const LengthControl& control, int joint,
+  RiderRules(const BeamSystem& system, const State& state, const LengthControl& control, int rider,
              NextPlan& next)
       : system_(system),
         state_(state),
         model_(system.model()),
         mesh_(system.mesh()),
         control_(control),
-        joint_(joint),
-        index_(model_.joints[joint].beam),
+        joint_(rider),
+        index_(model_.riders[rider].beam),
         beam_(model_.beams[index_]),
         next_(next),
-        rate_(place_rate(system, state, joint)) {
-    const auto s = place(system, state, joint);
+        rate_(place_rate(system, state, rider)) {
+    const auto s = place(system, state, rider);
     if (s) s_ = *s;
-    if (mesh_.plan.modes[joint_] == JointMode::node) look_around(state.q);
-    if (mesh_.plan.modes[joint_] != JointMode::free) watch_neighbours();
+    if (mesh_.plan.modes[joint_] == Carried::node) look_around(state.q);
+    if (mesh_.plan.modes[joint_] != Carried::free) watch_neighbours();
   }
 
-  // Where the joint may be for apply() to find nothing, whichever way it moves, as it has found nothing.
+  // Where the rider may be for apply() to find nothing, whichever way it moves, as it has found nothing.
   const PlaceRange& quiet() const { return quiet_; }
 
   bool apply() {
-    if (mesh_.plan.modes[joint_] == JointMode::point) return leave_point();
-    if (mesh_.plan.modes[joint_] != JointMode::node) return false;
+    if (mesh_.plan.modes[joint_] == Carried::point) return leave_point();
+    if (mesh_.plan.modes[joint_] != Carried::node) return false;
     if (near_end() || is_near_as_point(passing_zone)) return become_point();
     return move_breaks() || exchange_nodes();
   }
@@ -57,15 +57,15 @@ class JointRules {
   // A node where it is now.
   struct Node {
     double s;
-    int home, joint;  // -1: none
+    int home, rider;  // -1: none
   };
   static constexpr int on_each_side = 2;
 
-  // The joint's node and two on each side of it, where they are now: on a ring as often as it takes, else as
+  // The rider's node and two on each side of it, where they are now: on a ring as often as it takes, else as
   // many as there are.
   void look_around(const Eigen::VectorXd& q) {
     const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
-    const int count = static_cast<int>(nodes.size()), own = mesh_.joints[joint_].node;
+    const int count = static_cast<int>(nodes.size()), own = mesh_.riders[joint_].node;
     const int first = mesh_.first_span[index_];
     const double L = beam_.curve.length();
     const auto now = [&](int i) {
@@ -78,7 +78,7 @@ class JointRules {
       const int turn = k < 0 ? -((count - 1 - k) / count) : k / count, i = k - turn * count;
       if (k == own) left_ = node_count_ - 1;
       const int home = nodes[i].home >= 0 ? nodes[i].home + (turns + turn) * beam_.home_intervals() : -1;
-      nodes_[node_count_++] = {now(i) + (turns + turn) * L, home, nodes[i].joint};
+      nodes_[node_count_++] = {now(i) + (turns + turn) * L, home, nodes[i].rider};
     }
     right_ = left_ + 2;
     // The home nodes from the left neighbour to the right one, of those that can come and go.
@@ -86,14 +86,14 @@ class JointRules {
     highest_ = std::min(highest(), beam_.home_interval(nodes_[right_].s) + 1);
   }
 
-  // Between two home nodes, and with other joints further away, nothing but distances from them counts, each
+  // Between two home nodes, and with other riders further away, nothing but distances from them counts, each
   // of which is watched before it is asked for.
   void watch_neighbours() {
     const int h = beam_.home_interval(s_);
     watch(at(h));
     watch(at(h + 1));
     if (left_ >= 0 && std::any_of(nodes_.begin(), nodes_.begin() + node_count_,
-                                  [&](const Node& node) { return node.joint >= 0 && node.joint != joint_; }))
+                                  [&](const Node& node) { return node.rider >= 0 && node.rider != joint_; }))
       watch_closely();
   }
   void watch(double place) {
@@ -111,14 +111,14 @@ class JointRules {
     const int before = beam_.home_interval(s_);
     for (const int h : {before, before + 1})
       if (home(h).permanent) watch(at(h), reach * (at(before + 1) - at(before)));
-    return near_as_point(model_, model_.joints[joint_], s_, reach);
+    return near_as_point(model_, model_.riders[joint_], s_, reach);
   }
 
   double at(int h) const { return beam_.home_place(h); }
   const HomeNode& home(int h) const { return beam_.home_node(h); }
   int last() const { return beam_.home_intervals(); }
   bool is_end(int h) const { return !beam_.is_ring() && (h == 0 || h == last()); }
-  // The home nodes that can come and go: all but the ends, or those of one turn around the joint.
+  // The home nodes that can come and go: all but the ends, or those of one turn around the rider.
   int lowest() const { return beam_.is_ring() ? beam_.home_interval(s_) - last() / 2 + 1 : 1; }
   int highest() const { return beam_.is_ring() ? lowest() + last() - 1 : last() - 1; }
   bool present(int h) const {
@@ -128,7 +128,7 @@ class JointRules {
   double spacing(double s) const { return beam_.home_spacing(s); }
   bool change(MeshChange kind) {
     next_.change = kind;
-    next_.joint = joint_;
+    next_.rider = joint_;
     return true;
   }
   // The next plan, which is made when something is first changed.
@@ -147,14 +147,14 @@ class JointRules {
     }
     if (!beam_.is_ring() && from_end < zone) return false;
     if (is_near_as_point(passing_zone_left)) return false;
-    plan().modes[joint_] = JointMode::node;
+    plan().modes[joint_] = Carried::node;
     return change(MeshChange::becomes_node);
   }
 
   bool near_end() {
     const auto near = [&](int neighbour) {
       const Node& node = nodes_[neighbour];
-      if (node.joint >= 0 || !is_end(node.home)) return false;
+      if (node.rider >= 0 || !is_end(node.home)) return false;
       const double zone = end_zone * spacing(s_);
       watch(node.s, zone);
       return std::abs(node.s - s_) <= zone && is_approaching(node.s);
@@ -167,9 +167,9 @@ class JointRules {
     return (place > s_) == (rate_ > 0);
   }
 
-  // All hidden nodes around it return, but for those that another joint hides.
+  // All hidden nodes around it return, but for those that another rider hides.
   bool become_point() {
-    plan().modes[joint_] = JointMode::point;
+    plan().modes[joint_] = Carried::point;
     for (int h = lowest_; h <= highest_; ++h)
       if (hidden(h) && !another_joint_near(h, passing_zone_left)) insert(h);
     return change(MeshChange::becomes_point);
@@ -181,16 +181,16 @@ class JointRules {
   bool another_joint_near(int h, double reach) const {
     for (const int neighbour : {left_, right_}) {
       const Node& node = nodes_[neighbour];
-      if (node.joint < 0) continue;
+      if (node.rider < 0) continue;
       const double gap = at(h) < node.s ? at(h + 1) - at(h) : at(h) - at(h - 1);
       if (std::abs(at(h) - node.s) <= reach * gap) return true;
     }
     return false;
   }
 
-  // A break before a joint with a discontinuous slope.
+  // A break before a rider with a discontinuous slope.
   bool gives_way(int h) const {
-    return home(h).kind == NodeKind::smooth && passing(model_.joints[joint_], home(h)) == Passing::gives_way;
+    return home(h).kind == NodeKind::smooth && passing(model_.riders[joint_], home(h)) == Passing::gives_way;
   }
 
   bool move_breaks() {
@@ -205,7 +205,7 @@ class JointRules {
         return change(MeshChange::merge);  // charts change too: velocities are projected
       }
       const auto is_here = [&](int neighbour) {
-        return nodes_[neighbour].joint < 0 && nodes_[neighbour].home == h;
+        return nodes_[neighbour].rider < 0 && nodes_[neighbour].home == h;
       };
       if ((is_here(left_) || is_here(right_)) && distance < passing_zone * gap && is_approaching(at(h))) {
         remove(h);
@@ -218,7 +218,7 @@ class JointRules {
   // Returns whether a hidden home node comes back in the element towards `far`.
   bool insert_towards(int neighbour) {
     const Node& far = nodes_[neighbour];
-    if (far.joint >= 0) return insert_between_joints(far);
+    if (far.rider >= 0) return insert_between_joints(far);
     for (int h = lowest_; h <= highest_; ++h) {
       if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
       const double longest = control_.max * std::abs(far.s - at(h));
@@ -245,10 +245,10 @@ class JointRules {
   bool remove_at(int neighbour) {
     const Node& near = nodes_[neighbour];
     const int h = near.home;
-    if (near.joint >= 0 || is_end(h) || home(h).permanent) return false;
+    if (near.rider >= 0 || is_end(h) || home(h).permanent) return false;
     // The next node may be another moving one: then a home node beyond it is hidden by that one.
     const Node& beyond = nodes_[neighbour + (neighbour == left_ ? -1 : 1)];
-    if (beyond.joint < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
+    if (beyond.rider < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
     const double distance = std::abs(near.s - s_);
     const double here = std::abs(at(near.s < s_ ? h + 1 : h - 1) - at(h)),
                  behind = std::abs(at(near.s < s_ ? h - 1 : h + 1) - at(h));
@@ -256,7 +256,7 @@ class JointRules {
     for (const double threshold : {control_.min * here, (control_.max - 1) * behind, last_moment * here})
       watch(near.s, threshold);
     if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
-    // Another hidden node comes back first, unless it is too near to a second joint and this one too near
+    // Another hidden node comes back first, unless it is too near to a second rider and this one too near
     // here.
     for (int k = lowest_; k <= highest_ && distance > last_moment * here; ++k)
       if (hidden(k) && !home(k).permanent) return false;
@@ -312,7 +312,7 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
                    int first_joint) {
   NextPlan next;
   for (int j = first_joint; j < static_cast<int>(system.mesh().plan.places.size()); ++j) {
-    JointRules rules(system, state, control, j, next);
+    RiderRules rules(system, state, control, j, next);
     if (!rules.apply()) {
       next.quiet.push_back(rules.quiet());
       continue;
@@ -326,15 +326,15 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
 
 bool MeshWatch::is_quiet(const std::shared_ptr<const BeamSystem>& system, const State& state) const {
   if (system_.owner_before(system) || system.owner_before(system_)) return false;
-  const std::vector<MeshJoint>& joints = system->mesh().joints;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (joints[j].place >= 0 && !quiet_[j].holds(state.q[joints[j].place])) return false;
+  const std::vector<MeshRider>& riders = system->mesh().riders;
+  for (std::size_t j = 0; j < riders.size(); ++j)
+    if (riders[j].place >= 0 && !quiet_[j].holds(state.q[riders[j].place])) return false;
   return true;
 }
 
 void MeshWatch::look(const std::shared_ptr<const BeamSystem>& system, const NextPlan& next) {
   system_.reset();
-  if (next.change != MeshChange::none || next.quiet.size() != system->mesh().joints.size()) return;
+  if (next.change != MeshChange::none || next.quiet.size() != system->mesh().riders.size()) return;
   system_ = system;
   quiet_ = next.quiet;
 }
@@ -343,11 +343,11 @@ bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next
   constexpr double shortest = 0.01, longest = 1.5;  // in home element lengths
   if (next.change == MeshChange::becomes_node) return true;
   // What a point lacks of a kink is less and less; of a bend there is no more near the end than before.
-  const bool bends = system.model().joints[next.joint].continuous_slope;
+  const bool bends = system.model().riders[next.rider].continuous_slope;
   if (next.change == MeshChange::becomes_point && bends) return false;
   const Mesh& mesh = system.mesh();
-  const int beam = system.model().joints[next.joint].beam;
-  const int node = mesh.joints[next.joint].node, first = mesh.first_span[beam];
+  const int beam = system.model().riders[next.rider].beam;
+  const int node = mesh.riders[next.rider].node, first = mesh.first_span[beam];
   const int spans = mesh.first_span[beam + 1] - first;
   // Of a ring the element before its first node is its last.
   for (const int span : {first + (node + spans - 1) % spans, first + node % spans}) {

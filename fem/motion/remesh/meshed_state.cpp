@@ -27,9 +27,9 @@ template <class Project>
 std::optional<ChangedMesh> changed(const MeshedState& at, const NextPlan& next, bool at_rest,
                                    const BeamSystem* neighbour, const Project& project) {
   const BeamModel& model = at.system->model();
-  const std::vector<bool> held(model.joints.size(), at_rest);
+  const std::vector<bool> held(model.riders.size(), at_rest);
   auto to = at.system->replanned(next.plan, held, neighbour);
-  if (at_rest || keeps_motion(model.beam_of(model.joints[next.joint]), next.change)) {
+  if (at_rest || keeps_motion(model.beam_of(model.riders[next.rider]), next.change)) {
     State carried = interpolated(*at.system, at.state, *to);
     if (!close_constraints(*to, closed_enough(*at.system, at.state), carried)) return {};
     std::vector<int> around = changed_unknowns(*at.system, *to);
@@ -94,7 +94,7 @@ std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next, c
 }
 
 std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count) {
-  const std::size_t most = 20 * (at.system->model().joints.size() + 1);
+  const std::size_t most = 20 * (at.system->model().riders.size() + 1);
   if (count <= most + 1) return std::nullopt;
   return Failure{.kind = Failure::Kind::mesh, .time = at.state.t, .places = places_of(at)};
 }

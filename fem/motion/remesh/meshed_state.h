@@ -25,7 +25,7 @@ struct ChangedMesh {
   std::vector<int> around = {};  ///< unknowns that changed (changed_unknowns)
 };
 
-/// On the mesh that length control asks for; `at_rest`: joints are held there, and there are no velocities to
+/// On the mesh that length control asks for; `at_rest`: riders are held there, and there are no velocities to
 /// project. Empty where velocities cannot be projected.
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest);
 /// Of a motion whose energy is known.

@@ -28,7 +28,7 @@ class Surroundings {
     }
   }
 
-  // Positions, slopes and places of joints.
+  // Positions, slopes and places of riders.
   std::vector<int> moving() const {
     std::set<int> moving = places_;
     for (const auto& of : {positions_, slopes_})
@@ -77,22 +77,22 @@ class Surroundings {
     positions_.insert(node.r);
     slopes_.insert({node.slope_left, node.slope_right});
     if (node.angle_left >= 0) turns_.insert({node.angle_left, node.angle_right});
-    if (node.joint >= 0) take_joint(node.joint);
+    if (node.rider >= 0) take_joint(node.rider);
   }
 
   void take_points_on(const MeshSpan& span) {
     const Mesh& mesh = system_.mesh();
-    for (int j = 0; j < static_cast<int>(mesh.joints.size()); ++j) {
-      if (mesh.plan.modes[j] != JointMode::point || system_.model().joints[j].beam != span.beam) continue;
-      const double s = state_.q[mesh.joints[j].place];
+    for (int j = 0; j < static_cast<int>(mesh.riders.size()); ++j) {
+      if (mesh.plan.modes[j] != Carried::point || system_.model().riders[j].beam != span.beam) continue;
+      const double s = state_.q[mesh.riders[j].place];
       if (span.start(state_.q) <= s && s <= span.end(state_.q)) take_joint(j);
     }
   }
 
-  void take_joint(int joint) {
+  void take_joint(int rider) {
     const Mesh& mesh = system_.mesh();
-    if (mesh.joints[joint].place >= 0) places_.insert(mesh.joints[joint].place);
-    positions_.insert(mesh.bodies[system_.model().joints[joint].body]);
+    if (mesh.riders[rider].place >= 0) places_.insert(mesh.riders[rider].place);
+    positions_.insert(mesh.bodies[system_.model().riders[rider].body]);
   }
 
   const BeamSystem& system_;
@@ -126,7 +126,7 @@ RelativeMotion relative_motion(const BeamSystem& from, const BeamSystem& to, con
   across.compute(kept);
   const Eigen::MatrixXd Q = across.householderQ(), along = Q.rightCols(Q.cols() - across.rank());
 
-  // Places of joints have no mass of their own, but where they go along with a body.
+  // Places of riders have no mass of their own, but where they go along with a body.
   const Eigen::LLT<Eigen::MatrixXd> mass(along.transpose() * M(own, own) * along);
   if (mass.info() != Eigen::Success) return {};
   const Eigen::VectorXd momentum = along.transpose() * (M(own, Eigen::all) * state.v(around)),

@@ -7,23 +7,23 @@
 /// Where the bodies are that slide on beams.
 namespace nurbeam {
 
-/// Mean length of the standard elements of a joint's beam [m].
-double home_spacing(const BeamModel& model, int joint);
+/// Mean length of the standard elements of a rider's beam [m].
+double home_spacing(const BeamModel& model, int rider);
 
 /// From one body to another on the same beam [m], on a ring the short way; else infinity.
-double distance_between(const MeshedState& at, int joint, int other);
+double distance_between(const MeshedState& at, int rider, int other);
 /// Whether a stop keeps two bodies on one beam apart; on an open one also stops between those that stand
 /// between them.
-bool kept_apart(const BeamModel& model, int joint, int other);
+bool kept_apart(const BeamModel& model, int rider, int other);
 
 /// From one body to the nearest other one on its beam [m]; infinity where it is alone.
-double distance_to_others(const MeshedState& at, int joint);
+double distance_to_others(const MeshedState& at, int rider);
 
-/// Where each body is that a joint holds.
+/// Where each body is that a rider holds.
 std::vector<BodyPlace> places_of(const MeshedState& at);
 
-/// What ends a run in which the bodies of two joints on one beam meet.
-Failure meeting(const MeshedState& at, int joint, int other);
+/// What ends a run in which the bodies of two riders on one beam meet.
+Failure meeting(const MeshedState& at, int rider, int other);
 /// Two bodies that meet on one beam end the run; nothing where all are apart.
 [[nodiscard]] std::optional<Failure> meeting_bodies(const MeshedState& at);
 

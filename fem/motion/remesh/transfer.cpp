@@ -123,18 +123,18 @@ class Remap {
   void put_bodies(State& next) const {
     const BeamModel& model = to_.model();
     const Mesh& mesh = to_.mesh();
-    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-      if (mesh.plan.modes[j] != JointMode::point) continue;
-      const double s = next.q[mesh.joints[j].place];
-      next.q.segment(mesh.bodies[model.joints[j].body], mesh.dimension) =
-          material_point(to_, next, model.joints[j].beam, s).r.head(mesh.dimension);
+    for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+      if (mesh.plan.modes[j] != Carried::point) continue;
+      const double s = next.q[mesh.riders[j].place];
+      next.q.segment(mesh.bodies[model.riders[j].body], mesh.dimension) =
+          material_point(to_, next, model.riders[j].beam, s).r.head(mesh.dimension);
     }
     carry_bodies(to_, next);
   }
 
   bool bodies_are_on_axes() const {
-    const std::vector<SlidingJoint>& joints = to_.model().joints;
-    return std::none_of(joints.begin(), joints.end(), [](const SlidingJoint& j) { return j.is_offset(); });
+    const std::vector<Rider>& riders = to_.model().riders;
+    return std::none_of(riders.begin(), riders.end(), [](const Rider& j) { return j.is_offset(); });
   }
 
   // Those with this momentum at the places next.q. What is solved for them lies near what was solved at the
@@ -227,7 +227,7 @@ class Remap {
       const MeshNode& node = mesh.nodes[beam][i];
       const Hold hold = node.home >= 0 ? to_.model().beams[beam].home[node.home].hold : Hold::nothing;
       for (int k = 0; k < mesh.dimension; ++k) {
-        if (node.joint < 0 && hold == Hold::nothing) free.insert(node.r + k);
+        if (node.rider < 0 && hold == Hold::nothing) free.insert(node.r + k);
         if (hold != Hold::clamp) free.insert({node.slope_left + k, node.slope_right + k});
       }
       if (node.angle_left >= 0 && hold == Hold::nothing) free.insert({node.angle_left, node.angle_right});
@@ -235,11 +235,11 @@ class Remap {
     for (const MeshSpan& span : mesh.spans)
       if (span.bubble >= 0 && is_new(from_, to_, span)) free.insert(span.bubble);
     if (free.empty()) return {};
-    for (std::size_t j = 0; j < mesh.joints.size(); ++j) {
-      const SlidingJoint& joint = to_.model().joints[j];
-      if (mesh.plan.modes[j] != JointMode::point && !joint.is_offset()) continue;
-      if (mesh.plan.modes[j] == JointMode::free) continue;
-      for (int k = 0; k < mesh.dimension; ++k) free.insert(mesh.bodies[joint.body] + k);
+    for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
+      const Rider& rider = to_.model().riders[j];
+      if (mesh.plan.modes[j] != Carried::point && !rider.is_offset()) continue;
+      if (mesh.plan.modes[j] == Carried::free) continue;
+      for (int k = 0; k < mesh.dimension; ++k) free.insert(mesh.bodies[rider.body] + k);
     }
     return {free.begin(), free.end()};
   }

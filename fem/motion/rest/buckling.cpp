@@ -152,7 +152,7 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, int count
   const int n = at.system->coordinate_count();
   if (moves_rigidly(at, kkt, between)) return Failure{.kind = Failure::Kind::not_held};
   std::vector<bool> held;  // or at rest against a stop or an end
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
+  for (std::size_t j = 0; j < model.riders.size(); ++j)
     held.push_back(row_of_place(*at.system, static_cast<int>(j)).has_value());
   const BeamSystem loaded(model, at.system->mesh().plan, held);
   if (loaded.constraint_count() != at.system->constraint_count())

@@ -33,10 +33,10 @@ std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::
     if (connector.ends[0].body >= 0 && connector.ends[1].body >= 0)
       groups.join(connector.ends[0].body, connector.ends[1].body);
   for (const Stop& stop : model.stops)
-    if (stop.other >= 0) groups.join(model.joints[stop.joint].body, model.joints[stop.other].body);
+    if (stop.other >= 0) groups.join(model.riders[stop.rider].body, model.riders[stop.other].body);
   std::vector<std::vector<int>> members(model.bodies.size());
-  for (int j = 0; j < static_cast<int>(model.joints.size()); ++j)
-    members[groups.of(model.joints[j].body)].push_back(j);
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j)
+    members[groups.of(model.riders[j].body)].push_back(j);
   std::vector<std::vector<int>> coupled;
   for (const std::vector<int>& group : members)
     if (group.size() > 1 && std::any_of(group.begin(), group.end(), [&](int j) { return slides[j]; }))
@@ -45,18 +45,18 @@ std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::
 }
 
 std::optional<Eigen::MatrixXd> holding_stiffness(const BeamSystem& system, const State& state,
-                                                 const std::vector<int>& joints) {
+                                                 const std::vector<int>& riders) {
   Eigen::SparseMatrix<double> kkt = tangent_matrix(system, state, {.stiffness = 1});
   KktSolver solver;
   if (!solver.factorise(kkt)) return {};
   const int n = system.coordinate_count();
-  const auto count = static_cast<Eigen::Index>(joints.size());
+  const auto count = static_cast<Eigen::Index>(riders.size());
   Eigen::MatrixXd H(count, count);
   for (Eigen::Index j = 0; j < count; ++j) {
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(kkt.rows());
-    moved[n + row_of_place(system, joints[j]).value()] = 1;
+    moved[n + row_of_place(system, riders[j]).value()] = 1;
     const Eigen::VectorXd rate = solver.solve(moved);
-    for (Eigen::Index i = 0; i < count; ++i) H(i, j) = -rate[n + row_of_place(system, joints[i]).value()];
+    for (Eigen::Index i = 0; i < count; ++i) H(i, j) = -rate[n + row_of_place(system, riders[i]).value()];
   }
   return Eigen::MatrixXd((H + H.transpose()) / 2);
 }

@@ -8,14 +8,14 @@
 /// pull or press them together: one after the other they would strain what couples them.
 namespace nurbeam {
 
-/// The joints of bodies that connectors (over bodies that hang between, too), stops or a body of two joints
+/// The riders of bodies that connectors (over bodies that hang between, too), stops or a body of two riders
 /// couple, in groups of at least two of which one `slides`.
 std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::vector<bool>& slides);
 
-/// H_ij = d F_i / d s_j of the forces along the beam that hold joints at their places, the rest in
-/// equilibrium [N/m]; nothing where the tangent is singular. Precondition: the system holds these joints.
+/// H_ij = d F_i / d s_j of the forces along the beam that hold riders at their places, the rest in
+/// equilibrium [N/m]; nothing where the tangent is singular. Precondition: the system holds these riders.
 std::optional<Eigen::MatrixXd> holding_stiffness(const BeamSystem& system, const State& state,
-                                                 const std::vector<int>& joints);
+                                                 const std::vector<int>& riders);
 
 /// A row x >= b of what a move may be.
 struct MoveLimit {

@@ -16,25 +16,25 @@ namespace {
 
 // Where nothing pulls a body it may be on a summit: it is pushed off, and put back if it rests there as well
 // [m]. On a guide not far: what else holds it may pull it back from there over the summit.
-double push_off(const BeamModel& model, int joint, double s, Descent& body) {
+double push_off(const BeamModel& model, int rider, double s, Descent& body) {
   ++body.balanced;
   if (body.balanced == 1) {
-    const bool came_back = std::abs(s - body.pushed_from) < 1e-6 * home_spacing(model, joint);
+    const bool came_back = std::abs(s - body.pushed_from) < 1e-6 * home_spacing(model, rider);
     body.pushed_from = s;
     if (came_back) return 0;
   }
-  const bool on_guide = model.beam_of(model.joints[joint]).rigid;
-  const double push = on_guide ? std::min(body.most, first_move(model, joint)) : body.most;
+  const bool on_guide = model.beam_of(model.riders[rider]).rigid;
+  const double push = on_guide ? std::min(body.most, first_move(model, rider)) : body.most;
   return body.balanced == 1 ? push : body.balanced == 2 ? -body.moved : 0;
 }
 
 // What round-off makes of the force that holds a body where nothing pulls it [N]: strains are differences of
 // coordinates over the length of an element.
-double force_of_round_off(const MeshedState& at, int joint) {
+double force_of_round_off(const MeshedState& at, int rider) {
   const BeamModel& model = at.system->model();
-  const double elements = at.state.q.lpNorm<Eigen::Infinity>() / home_spacing(model, joint);
+  const double elements = at.state.q.lpNorm<Eigen::Infinity>() / home_spacing(model, rider);
   return 8 * std::numeric_limits<double>::epsilon() *
-         model.beam_of(model.joints[joint]).properties.force_of_strain(1 + elements);
+         model.beam_of(model.riders[rider]).properties.force_of_strain(1 + elements);
 }
 
 // Towards where no force is needed to hold a body [m], by the secant of the last two places: what holds it
@@ -48,72 +48,72 @@ double step_down(const Descent& body, double s, double force) {
 
 // The force that holds a body less what its friction holds: one that sticks is held by that alone, one that
 // slides goes on until its friction of sliding holds it.
-double force_beyond_friction(const MeshedState& at, int joint, double force, Descent& body) {
-  if (!at.system->model().joints[joint].friction) return force;
+double force_beyond_friction(const MeshedState& at, int rider, double force, Descent& body) {
+  if (!at.system->model().riders[rider].friction) return force;
   if (body.way == 0) {
-    if (std::abs(force) <= holding_capacity(*at.system, at.state, joint, true)) return 0;
+    if (std::abs(force) <= holding_capacity(*at.system, at.state, rider, true)) return 0;
     body.way = force < 0 ? 1 : -1;
   }
-  return force + body.way * holding_capacity(*at.system, at.state, joint, false);
+  return force + body.way * holding_capacity(*at.system, at.state, rider, false);
 }
 
 // A move that ends at a hard stop where it would go beyond [m].
-double before_stops(const MeshedState& at, int joint, double s, double ds) {
+double before_stops(const MeshedState& at, int rider, double s, double ds) {
   for (const Stop& stop : at.system->model().stops) {
-    if (stop.joint != joint || stop.other >= 0 || stop.buffer) continue;
+    if (stop.rider != rider || stop.other >= 0 || stop.buffer) continue;
     ds = stop.from_below ? std::min(ds, std::max(0.0, stop.place - s))
                          : std::max(ds, std::min(0.0, stop.place - s));
   }
   return ds;
 }
 
-// Whether a hard stop holds a joint's body at an end of its beam.
-bool stands_at(const BeamModel& model, int joint, double end, bool from_below) {
-  const double same = 1e-9 * model.beam_of(model.joints[joint]).curve.length();
+// Whether a hard stop holds a rider's body at an end of its beam.
+bool stands_at(const BeamModel& model, int rider, double end, bool from_below) {
+  const double same = 1e-9 * model.beam_of(model.riders[rider]).curve.length();
   return std::any_of(model.stops.begin(), model.stops.end(), [&](const Stop& stop) {
-    return stop.joint == joint && stop.other < 0 && !stop.buffer && stop.from_below == from_below &&
+    return stop.rider == rider && stop.other < 0 && !stop.buffer && stop.from_below == from_below &&
            std::abs(stop.place - end) <= same;
   });
 }
 
-bool hard_stop_between(const BeamModel& model, int joint, int other) {
+bool hard_stop_between(const BeamModel& model, int rider, int other) {
   return std::any_of(
       model.stops.begin(), model.stops.end(),
       [&](const Stop& stop) {
         return stop.other >= 0 && !stop.buffer &&
-               std::minmax(stop.joint, stop.other) == std::minmax(joint, other);
+               std::minmax(stop.rider, stop.other) == std::minmax(rider, other);
       });
 }
 
 }  // namespace
 
-double first_move(const BeamModel& model, int joint) {
-  return home_spacing(model, joint) / (model.beam_of(model.joints[joint]).rigid ? 64 : 4);
+double first_move(const BeamModel& model, int rider) {
+  return home_spacing(model, rider) / (model.beam_of(model.riders[rider]).rigid ? 64 : 4);
 }
 
-double next_move(const MeshedState& at, int joint, Descent& body) {
+double next_move(const MeshedState& at, int rider, Descent& body) {
   body.arrived = body.most == 0;
   if (body.arrived) return 0;
-  const double force = force_beyond_friction(at, joint, holding_force(*at.system, at.state, joint), body);
-  const double s = *place(*at.system, at.state, joint);
-  const double spacing = home_spacing(at.system->model(), joint);
+  const double force = force_beyond_friction(at, rider, holding_force(*at.system, at.state, rider), body);
+  const double s = *place(*at.system, at.state, rider);
+  const double spacing = home_spacing(at.system->model(), rider);
   // Half way back at most: a secant over a buffer's end leads back to where it came from.
   if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) / 2 : 2 * body.most;
   body.most = std::min(body.most, 4 * spacing);
   const bool begins = body.moved == 0 || body.balanced > 0;
-  const bool has_friction = at.system->model().joints[joint].friction.has_value();
+  const bool has_friction = at.system->model().riders[rider].friction.has_value();
   if (has_friction && body.way == 0 && force == 0 &&
-      holding_capacity(*at.system, at.state, joint, true) > 0) {
+      holding_capacity(*at.system, at.state, rider, true) > 0) {
     body.arrived = true;
     return 0;
   }
-  const bool nothing_pulls = std::abs(force) <= (begins ? force_of_round_off(at, joint) : 0);
-  double ds = nothing_pulls ? push_off(at.system->model(), joint, s, body) : step_down(body, s, force);
+  const bool nothing_pulls = std::abs(force) <= (begins ? force_of_round_off(at, rider) : 0);
+  double ds = nothing_pulls ? push_off(at.system->model(), rider, s, body) : step_down(body, s, force);
   if (!nothing_pulls) body.balanced = 0;
-  const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().joints[joint]).curve;
-  const double room = 0.4 * distance_to_others(at, joint);
+  const ReferenceCurve& curve = at.system->model().beam_of(at.system->model().riders[rider]).curve;
+  const double room = 0.4 * distance_to_others(at, rider);
   const double free = std::clamp(ds, -room, room);
-  const double stopped = before_stops(at, joint, s, free);
+  const double stopped = before_stops(at, rider, s, free);
   ds = curve.closed() ? stopped : std::clamp(stopped, -s, curve.length() - s);
   const auto goes = [&](double way) { return std::abs(way) >= 1e-6 * spacing; };
   body.arrived = !goes(ds);
@@ -126,8 +126,8 @@ double next_move(const MeshedState& at, int joint, Descent& body) {
   return ds;
 }
 
-CoupledDescent::CoupledDescent(const BeamModel& model, std::vector<int> joints)
-    : joints_(std::move(joints)),
+CoupledDescent::CoupledDescent(const BeamModel& model, std::vector<int> riders)
+    : joints_(std::move(riders)),
       spacing_(std::numeric_limits<double>::infinity()),
       moved_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints_.size()))) {
   for (const int j : joints_) spacing_ = std::min(spacing_, home_spacing(model, j));
@@ -148,7 +148,7 @@ void CoupledDescent::next_moves(const MeshedState& at, std::vector<Descent>& bod
     if (body.most == 0) continue;
     const double force = force_beyond_friction(at, j, holding_force(*at.system, at.state, j), body);
     before += force * moved_[static_cast<Eigen::Index>(k)];
-    if (body.way == 0 && at.system->model().joints[j].friction && force == 0) continue;
+    if (body.way == 0 && at.system->model().riders[j].friction && force == 0) continue;
     movable.push_back(j);
     forces.push_back(force);
     round_off = std::max(round_off, force_of_round_off(at, j));
@@ -190,15 +190,15 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
   const auto add = [&](const Eigen::VectorXd& row, double least, Of of) {
     if (!row.isZero()) all.push_back({row, std::min(least, 0.0), of});
   };
-  const auto row_of = [&](int joint) {
+  const auto row_of = [&](int rider) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(count);
-    const auto found = std::find(movable.begin(), movable.end(), joint);
+    const auto found = std::find(movable.begin(), movable.end(), rider);
     if (found != movable.end()) row[found - movable.begin()] = 1;
     return row;
   };
   for (const int j : movable) {
     const double s = *place(*at.system, at.state, j);
-    const ReferenceCurve& curve = model.beam_of(model.joints[j]).curve;
+    const ReferenceCurve& curve = model.beam_of(model.riders[j]).curve;
     for (const double way : {1.0, -1.0}) add(way * row_of(j), -most_, Of::move);
     if (!curve.closed()) {
       if (!stands_at(model, j, 0, false)) add(row_of(j), -s, Of::end);
@@ -206,7 +206,7 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
     }
     // But for a hard stop between them, two come no nearer than by a part of their distance at once: a buffer
     // that one has jumped over pushes the wrong way.
-    for (int other = 0; other < static_cast<int>(model.joints.size()); ++other) {
+    for (int other = 0; other < static_cast<int>(model.riders.size()); ++other) {
       const double distance = distance_between(at, j, other);
       if (!std::isfinite(distance) || hard_stop_between(model, j, other)) continue;
       const double there = curve.unrolled(*place(*at.system, at.state, other), s);
@@ -216,7 +216,7 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
   }
   for (const Stop& stop : model.stops) {
     if (stop.buffer || !is_in_place(at.system->mesh(), stop)) continue;
-    Eigen::VectorXd row = stop.weight_of_joint() * row_of(stop.joint);
+    Eigen::VectorXd row = stop.weight_of_rider() * row_of(stop.rider);
     if (stop.other >= 0) row += stop.weight_of_other() * row_of(stop.other);
     add(row, -StopDistance(model, at.system->mesh(), stop).value(at.state.q), Of::stop);
   }

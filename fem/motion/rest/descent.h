@@ -20,23 +20,23 @@ struct Descent {
 };
 
 /// How far a body moves at first [m]: a quarter of an element; on a guide, which has none, less.
-double first_move(const BeamModel& model, int joint);
+double first_move(const BeamModel& model, int rider);
 
 /// The next move of a body by itself [m]; 0 where it has arrived.
-double next_move(const MeshedState& at, int joint, Descent& body);
+double next_move(const MeshedState& at, int rider, Descent& body);
 
 /// Bodies that are coupled, on their way down together.
 class CoupledDescent {
  public:
-  /// `joints`: those of a group of coupled_joints.
-  CoupledDescent(const BeamModel& model, std::vector<int> joints);
+  /// `riders`: those of a group of coupled_joints.
+  CoupledDescent(const BeamModel& model, std::vector<int> riders);
 
-  const std::vector<int>& joints() const { return joints_; }
+  const std::vector<int>& riders() const { return joints_; }
   /// Writes their next moves into `moves` [m]; a body of which nothing is asked (Descent::most is 0) stays.
   void next_moves(const MeshedState& at, std::vector<Descent>& bodies, std::vector<double>& moves);
 
  private:
-  // What may be asked of a move of the joints `movable`.
+  // What may be asked of a move of the riders `movable`.
   std::vector<MoveLimit> limits(const MeshedState& at, const std::vector<int>& movable) const;
 
   std::vector<int> joints_;

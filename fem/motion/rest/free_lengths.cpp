@@ -159,7 +159,7 @@ RestReport find_free_lengths(MeshedState& at, const std::function<bool()>& inter
   const BeamModel& asked = at.system->model();
   const std::shared_ptr<const BeamModel> original = at.system->shared_model();
   const MeshPlan plan = at.system->mesh().plan;
-  const std::vector<bool> held(asked.joints.size(), true);
+  const std::vector<bool> held(asked.riders.size(), true);
   std::shared_ptr<BeamModel> model = two_sided(*original);
   RestReport report;
   constexpr int most_steps = 30;

@@ -36,7 +36,7 @@ MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOpt
                                  : find_rest(at, options.length_control, interrupted);
     if (!report.failure && !report.freed) report.failure = failure_of(Failure::Kind::resting_place);
   } else if (options.bodies_held) {
-    const std::vector<bool> held(at.system->model().joints.size(), true);
+    const std::vector<bool> held(at.system->model().riders.size(), true);
     at.system = at.system->replanned(at.system->mesh().plan, held);
     at.state = drawn_state(*at.system);
   }

@@ -24,19 +24,19 @@ namespace nurbeam {
 
 namespace {
 
-// How far a joint can move in a direction while its elements keep half of their length [m]: beyond, Newton's
+// How far a rider can move in a direction while its elements keep half of their length [m]: beyond, Newton's
 // method starts far off.
-double room_to_move(const MeshedState& at, int joint, int direction) {
+double room_to_move(const MeshedState& at, int rider, int direction) {
   const Mesh& mesh = at.system->mesh();
-  const int node = mesh.joints[joint].node;
+  const int node = mesh.riders[rider].node;
   if (node < 0) return std::numeric_limits<double>::infinity();
-  const int beam = at.system->model().joints[joint].beam, first = mesh.first_span[beam];
+  const int beam = at.system->model().riders[rider].beam, first = mesh.first_span[beam];
   const int count = mesh.first_span[beam + 1] - first;
   const MeshSpan& span = mesh.spans[first + (direction > 0 ? node : (node + count - 1) % count)];
   return (span.end(at.state.q) - span.start(at.state.q)) / 2;
 }
 
-// The plan of the mesh with joints held at other places.
+// The plan of the mesh with riders held at other places.
 MeshPlan held_at(const MeshedState& at, const std::vector<double>& places) {
   MeshPlan plan = at.system->mesh().plan;
   plan.places = places;
@@ -44,7 +44,7 @@ MeshPlan held_at(const MeshedState& at, const std::vector<double>& places) {
   return plan;
 }
 
-// Where the joints are; one that holds nothing where it was.
+// Where the riders are; one that holds nothing where it was.
 std::vector<double> present_places(const MeshedState& at) {
   std::vector<double> places = at.system->mesh().plan.places;
   for (std::size_t j = 0; j < places.size(); ++j)
@@ -76,10 +76,10 @@ class RestSearch {
       constexpr int most_rounds = 10;
       for (int round = 0; round < most_rounds && hold_in_equilibrium(std::move(plan)); ++round) {
         const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
-        for (int j = 0; j < joints(); ++j) {
-          const SlidingJoint& joint = model().joints[j];
-          const int dof = at_.system->mesh().joints[j].place;  // length control looks at its speed
-          if (dof >= 0) at_.state.v[dof] = joint.motion ? joint.motion->at(at_.state.t).speed : joint.speed;
+        for (int j = 0; j < riders(); ++j) {
+          const Rider& rider = model().riders[j];
+          const int dof = at_.system->mesh().riders[j].place;  // length control looks at its speed
+          if (dof >= 0) at_.state.v[dof] = rider.motion ? rider.motion->at(at_.state.t).speed : rider.speed;
         }
         const bool goes_on = settle_mesh();
         at_.state.v.setZero();
@@ -89,15 +89,15 @@ class RestSearch {
     });
   }
 
-  // `slides`: the joints whose bodies look for their place.
+  // `slides`: the riders whose bodies look for their place.
   RestReport rest(const std::vector<bool>& slides) {
     return told([&] { look_for_rest(slides); });
   }
 
  private:
   const BeamModel& model() const { return at_.system->model(); }
-  int joints() const { return static_cast<int>(model().joints.size()); }
-  double spacing(int joint) const { return home_spacing(model(), joint); }
+  int riders() const { return static_cast<int>(model().riders.size()); }
+  double spacing(int rider) const { return home_spacing(model(), rider); }
 
   RestReport told(const std::function<void()>& search) {
     try {
@@ -115,7 +115,7 @@ class RestSearch {
       return;
     if (!move_driven_bodies()) return;
     std::vector<Descent> bodies;
-    for (int j = 0; j < joints(); ++j) bodies.push_back({slides[j] ? first_move(model(), j) : 0});
+    for (int j = 0; j < riders(); ++j) bodies.push_back({slides[j] ? first_move(model(), j) : 0});
     for (std::vector<int>& group : coupled_joints(model(), slides))
       coupled_.emplace_back(model(), std::move(group));
     constexpr int most_moves = 2000;
@@ -123,8 +123,8 @@ class RestSearch {
       if (moves > most_moves) report_.failure = Failure{.kind = Failure::Kind::resting_place};
     if (report_.failure || !goes_on(leaving_body(bodies))) return;
     std::vector<bool> stays;
-    for (int j = 0; j < joints(); ++j)
-      stays.push_back(bodies[j].at_end || !(slides[j] || model().joints[j].motion));
+    for (int j = 0; j < riders(); ++j)
+      stays.push_back(bodies[j].at_end || !(slides[j] || model().riders[j].motion));
     hold_by_friction(at_, stays);
     free_bodies(stays);
   }
@@ -136,22 +136,22 @@ class RestSearch {
 
   // A body that has arrived at a free end which it would leave is not at rest there.
   std::optional<Failure> leaving_body(const std::vector<Descent>& bodies) const {
-    for (int j = 0; j < joints(); ++j) {
-      if (!bodies[j].leaves || !model().joints[j].leave_at_end) continue;
+    for (int j = 0; j < riders(); ++j) {
+      if (!bodies[j].leaves || !model().riders[j].leave_at_end) continue;
       const double s = *place(*at_.system, at_.state, j),
-                   length = model().beam_of(model().joints[j]).curve.length();
+                   length = model().beam_of(model().riders[j]).curve.length();
       if (!is_held(model(), {j, s, s > length / 2}))
         return Failure{
-            .kind = Failure::Kind::leaves_beam, .time = at_.state.t, .places = places_of(at_), .joint = j};
+            .kind = Failure::Kind::leaves_beam, .time = at_.state.t, .places = places_of(at_), .rider = j};
     }
     return {};
   }
 
   // Takes bodies whose motion is prescribed to where they are at the time.
   bool move_driven_bodies() {
-    std::vector<double> ds(model().joints.size(), 0);
-    for (int j = 0; j < joints(); ++j)
-      if (const auto& motion = model().joints[j].motion)
+    std::vector<double> ds(model().riders.size(), 0);
+    for (int j = 0; j < riders(); ++j)
+      if (const auto& motion = model().riders[j].motion)
         if (const auto s = place(*at_.system, at_.state, j)) ds[j] = motion->at(at_.state.t).s - *s;
     return move_places(std::move(ds));
   }
@@ -159,7 +159,7 @@ class RestSearch {
   // One move of every body and the equilibrium after it; false where all have arrived, or there is none.
   bool let_down(std::vector<Descent>& bodies) {
     std::vector<double> ds(bodies.size(), 0);
-    for (int j = 0; j < joints(); ++j)
+    for (int j = 0; j < riders(); ++j)
       if (!is_coupled(j)) ds[j] = next_move(at_, j, bodies[j]);
     for (CoupledDescent& group : coupled_) group.next_moves(at_, bodies, ds);
     const bool arrived =
@@ -167,7 +167,7 @@ class RestSearch {
     return !arrived && move_places(std::move(ds));
   }
 
-  // Equilibrium from the state as it is, which is kept on failure. `held`: the joints that are.
+  // Equilibrium from the state as it is, which is kept on failure. `held`: the riders that are.
   StaticReport find_equilibrium(MeshedState& at, const std::vector<bool>& held) {
     // What hangs on a rod is as stiff as its multiplier makes it.
     if (at.state.lambda.size() != at.system->constraint_count())
@@ -223,7 +223,7 @@ class RestSearch {
     return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
   }
   StaticReport equilibrium_of(MeshPlan plan) {
-    const std::vector<bool> held(model().joints.size(), true);
+    const std::vector<bool> held(model().riders.size(), true);
     at_.system = at_.system->replanned(std::move(plan), held);
     return find_equilibrium(at_, held);
   }
@@ -241,30 +241,30 @@ class RestSearch {
     }
   }
 
-  bool is_coupled(int joint) const {
+  bool is_coupled(int rider) const {
     return std::any_of(
         coupled_.begin(), coupled_.end(),
         [&](const CoupledDescent& group) {
-          return std::count(group.joints().begin(), group.joints().end(), joint) > 0;
+          return std::count(group.riders().begin(), group.riders().end(), rider) > 0;
         });
   }
 
-  // How much of each move is made at once, with which no joint passes a node: those that are coupled go the
+  // How much of each move is made at once, with which no rider passes a node: those that are coupled go the
   // same part of their ways.
   std::vector<double> parts_at_once(const std::vector<double>& ds) const {
     std::vector<double> parts;
-    for (int j = 0; j < joints(); ++j)
+    for (int j = 0; j < riders(); ++j)
       parts.push_back(std::clamp(ds[j], -room_to_move(at_, j, -1), room_to_move(at_, j, 1)));
     for (const CoupledDescent& group : coupled_) {
       double least = 1;
-      for (const int j : group.joints())
+      for (const int j : group.riders())
         if (ds[j] != 0) least = std::min(least, parts[j] / ds[j]);
-      for (const int j : group.joints()) parts[j] = least * ds[j];
+      for (const int j : group.riders()) parts[j] = least * ds[j];
     }
     return parts;
   }
 
-  // Moves held joints to equilibrium, which Newton's first step looks for to first order: by all of the
+  // Moves held riders to equilibrium, which Newton's first step looks for to first order: by all of the
   // parts, or by half of them again and again where none is near. Makes of the parts what they were moved by.
   bool move_by(std::vector<double>& parts) {
     const auto moved_places = [&] {
@@ -285,15 +285,15 @@ class RestSearch {
     return hold_in_equilibrium(held_at(at_, moved_places()));
   }
 
-  // Moves held joints by ds from equilibrium to equilibrium, never past a node at once, and carries length
+  // Moves held riders by ds from equilibrium to equilibrium, never past a node at once, and carries length
   // control along.
   bool move_places(std::vector<double> ds) {
     while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
       std::vector<double> parts = parts_at_once(ds);
       if (!move_by(parts)) return false;
-      for (int j = 0; j < joints(); ++j) {
+      for (int j = 0; j < riders(); ++j) {
         ds[j] -= parts[j];
-        const int dof = at_.system->mesh().joints[j].place;
+        const int dof = at_.system->mesh().riders[j].place;
         if (dof >= 0) at_.state.v[dof] = parts[j];  // length control looks at it
       }
       const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
@@ -304,11 +304,11 @@ class RestSearch {
     return true;
   }
 
-  // Equilibrium with the joints free that are not held, if there is one nearby; else nothing changes.
+  // Equilibrium with the riders free that are not held, if there is one nearby; else nothing changes.
   void free_bodies(const std::vector<bool>& held) {
     MeshedState freed{at_.system->replanned(at_.system->mesh().plan, held), at_.state};
     bool near = find_equilibrium(freed, held).status == StaticStatus::converged;
-    for (int j = 0; near && j < joints(); ++j) {
+    for (int j = 0; near && j < riders(); ++j) {
       const auto s = place(*freed.system, freed.state, j);
       near = !s || std::abs(*s - *place(*at_.system, at_.state, j)) < 1e-3 * spacing(j);
     }
@@ -326,12 +326,12 @@ class RestSearch {
   RestReport report_;
 };
 
-// The joints whose bodies look for their place; `otherwise`: those that do not say.
+// The riders whose bodies look for their place; `otherwise`: those that do not say.
 std::vector<bool> sliding_at_rest(const BeamModel& model, StaticPlace otherwise) {
   std::vector<bool> slides;
-  for (const SlidingJoint& joint : model.joints) {
-    const StaticPlace rest = joint.rest == StaticPlace::automatic ? otherwise : joint.rest;
-    slides.push_back(!joint.motion && rest == StaticPlace::free);
+  for (const Rider& rider : model.riders) {
+    const StaticPlace rest = rider.rest == StaticPlace::automatic ? otherwise : rider.rest;
+    slides.push_back(!rider.motion && rest == StaticPlace::free);
   }
   return slides;
 }

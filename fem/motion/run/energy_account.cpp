@@ -140,8 +140,8 @@ double given_by_events(const std::vector<RunEvent>& events) {
 
 bool has_prescribed_motions(const BeamModel& model) {
   return std::any_of(
-             model.joints.begin(), model.joints.end(),
-             [](const SlidingJoint& joint) { return joint.motion.has_value(); }) ||
+             model.riders.begin(), model.riders.end(),
+             [](const Rider& rider) { return rider.motion.has_value(); }) ||
          std::any_of(model.constraints.begin(), model.constraints.end(), is_moved);
 }
 

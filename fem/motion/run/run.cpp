@@ -93,8 +93,8 @@ bool Run::goes_on(std::optional<Failure> failure) {
   return false;
 }
 
-bool Run::fail_in_impact(int joint) {
-  return goes_on(Failure{.kind = Failure::Kind::impact, .time = at.state.t, .joint = joint});
+bool Run::fail_in_impact(int rider) {
+  return goes_on(Failure{.kind = Failure::Kind::impact, .time = at.state.t, .rider = rider});
 }
 
 State Run::at_the_moment(const State& state, double length) const {

@@ -69,8 +69,8 @@ struct Run {
 
   bool goes_on(std::optional<Failure> failure);
   bool fail(Failure::Kind kind) { return goes_on(Failure{.kind = kind, .time = at.state.t}); }
-  /// In the impact at the end or a break of a joint's beam.
-  bool fail_in_impact(int joint);
+  /// In the impact at the end or a break of a rider's beam.
+  bool fail_in_impact(int rider);
 
   /// Shorter than this nothing is followed: the next step of a method for stiff systems [s].
   double shortest_time() const;

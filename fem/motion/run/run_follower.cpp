@@ -9,7 +9,7 @@ double corresponding_place(const Beam& beam, double s, const Beam& neighbour) {
 }
 
 Crossing corresponding_crossing(Crossing crossing, const BeamModel& model, const BeamModel& neighbour) {
-  const int beam = model.joints[crossing.joint].beam;
+  const int beam = model.riders[crossing.rider].beam;
   crossing.s = corresponding_place(model.beams[beam], crossing.s, neighbour.beams[beam]);
   return crossing;
 }

@@ -17,7 +17,7 @@ void refuse(Run& run, const NextPlan& next, std::optional<double> cost) {
   Failure failure{.kind = Failure::Kind::projection, .time = run.at.state.t, .places = places_of(run.at)};
   if (cost) {
     failure.kind = Failure::Kind::mesh_energy;
-    failure.joint = next.joint;
+    failure.rider = next.rider;
     failure.energy = *cost;
   }
   run.report.fail(std::move(failure));
@@ -30,7 +30,7 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
   const auto plan_of = [&](const MeshedState& of) { return plan_like(next.plan, *of.system, of.state); };
   NeighbourSolvers solvers;
   const auto make = [&](MeshedState& of) {
-    return !change_mesh_like(of, {next.change, next.joint, plan_of(of)}, system, changed.keeping, solvers);
+    return !change_mesh_like(of, {next.change, next.rider, plan_of(of)}, system, changed.keeping, solvers);
   };
   const auto change = [&, first = true](MeshedState& of) mutable {
     // The run's own motion goes before those that are found beside it.
@@ -38,7 +38,7 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
     return make(of);
   };
   if (changed.impulse.size() == 0) return run.follow(change);
-  const std::vector<bool> held(run.model->joints.size(), false);
+  const std::vector<bool> held(run.model->riders.size(), false);
   run.observer.follower->transfers(
       run.at,
       {before, changed.keeping,
@@ -55,8 +55,8 @@ bool change_due_mesh(Run& run) {
     const NextPlan next = next_plan(*run.at.system, run.at.state, run.options.length_control, first);
     run.watch.look(run.at.system, next);
     if (next.change == MeshChange::none) return false;
-    MotionSums sums = motion_sums(*run.at.system, run.at.state, run.model->joints[next.joint].beam);
-    RunEvent event = event_before(run.at, kind_of(next.change), next.joint, sums);
+    MotionSums sums = motion_sums(*run.at.system, run.at.state, run.model->riders[next.rider].beam);
+    RunEvent event = event_before(run.at, kind_of(next.change), next.rider, sums);
     std::optional<ChangedMesh> changed =
         run.is_as_drawn() ? changed_drawing(run.at, next) : changed_mesh(run.at, next, sums.energy);
     if (changed) {
@@ -70,7 +70,7 @@ bool change_due_mesh(Run& run) {
         refuse(run, next, changed ? std::optional(cost) : std::nullopt);
         return false;
       }
-      first = next.joint + 1;
+      first = next.rider + 1;
       continue;
     }
     const bool observed = static_cast<bool>(run.observer.mesh_changed);

@@ -24,10 +24,10 @@ bool has_just_left(const std::vector<RunEvent>& events, const RunEvent& event) {
 
 // Bodies with friction stick or slide as forces and velocities now are; what sticks stored is lost, and comes
 // from what held it where it begins to.
-bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
-  if (joints.empty()) return true;
+bool settle_sticking(Run& run, const std::vector<int>& riders, bool at_rest) {
+  if (riders.empty()) return true;
   const double before = run.mechanical_energy();
-  if (!settle_friction(run.at, joints, run.shortest_time(), at_rest))
+  if (!settle_friction(run.at, riders, run.shortest_time(), at_rest))
     return run.fail(Failure::Kind::mass_matrix);
   const double stored = run.mechanical_energy() - before;
   if (stored > 0)
@@ -37,18 +37,18 @@ bool settle_sticking(Run& run, const std::vector<int>& joints, bool at_rest) {
   return true;
 }
 
-// A joint's body in the next element: with its energy kept, or as of a neighbouring motion
+// A rider's body in the next element: with its energy kept, or as of a neighbouring motion
 // where that is known. `neighbour`, which may be null: see BeamSystem::replanned. False where velocities
 // cannot be projected.
 bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighbour,
              std::optional<EnergyKeeping>& keeping, NeighbourSolvers& solvers) {
-  const SlidingJoint& joint = at.system->model().joints[crossing.joint];
-  const double beyond = landing_tolerance(at.system->model(), crossing.joint);
-  at.state.q[at.system->mesh().joints[crossing.joint].place] =
+  const Rider& rider = at.system->model().riders[crossing.rider];
+  const double beyond = landing_tolerance(at.system->model(), crossing.rider);
+  at.state.q[at.system->mesh().riders[crossing.rider].place] =
       crossing.s + (crossing.forward ? beyond : -beyond);
   auto next = at.system->replanned(present_plan(*at.system, at.state), {}, neighbour);
-  if (!joint.follows_section) {
-    // Over the seam of a ring the joint's node is the first instead of the last, or the other way round.
+  if (!rider.follows_section) {
+    // Over the seam of a ring the rider's node is the first instead of the last, or the other way round.
     State moved = interpolated(*at.system, at.state, *next);
     at = {std::move(next), std::move(moved)};
     return true;
@@ -65,18 +65,18 @@ bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighb
 
 // False where the impact is singular.
 bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double step) {
-  const int joint = ending.joint;
+  const int rider = ending.rider;
   MeshPlan plan = present_plan(*at.system, at.state);
-  plan.places[joint] = ending.s;
-  plan.modes[joint] = leaves ? JointMode::free : JointMode::stopped;
+  plan.places[rider] = ending.s;
+  plan.modes[rider] = leaves ? Carried::free : Carried::stopped;
   if (leaves) {
-    plan.spins.resize(at.system->model().joints.size());
-    plan.spins[joint] = body_motions(*at.system, at.state).spins[joint];
+    plan.spins.resize(at.system->model().riders.size());
+    plan.spins[rider] = body_motions(*at.system, at.state).spins[rider];
   }
   auto next = at.system->replanned(std::move(plan));
   State moved = interpolated(*at.system, at.state, *next);
   if (!leaves) {
-    moved.q[next->mesh().joints[joint].place] = ending.s;
+    moved.q[next->mesh().riders[rider].place] = ending.s;
     if (project_velocities(*next, moved, step).status != ConsistencyStatus::done) return false;
   }
   at = {std::move(next), std::move(moved)};
@@ -88,7 +88,7 @@ bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double
 bool pass_event(Run& run, const StepEvent& event, Arrival arrival) {
   const auto* contact = std::get_if<ContactEvent>(&event);
   if (contact && contact->kind == ContactEvent::Kind::bodies_meet)
-    return run.goes_on(meeting(run.at, contact->joints.first, contact->joints.second));
+    return run.goes_on(meeting(run.at, contact->riders.first, contact->riders.second));
   if (const auto* taut = std::get_if<TautEvent>(&event)) {
     run.change([&](MeshedState& at) {
       apply(at, *taut);
@@ -96,7 +96,7 @@ bool pass_event(Run& run, const StepEvent& event, Arrival arrival) {
     });
     return settle_damper(run, event) && run.restart();
   }
-  RunEvent happened = event_before(run.at, EventKind::slides, joint_of(*run.model, event));
+  RunEvent happened = event_before(run.at, EventKind::slides, rider_of(*run.model, event));
   const auto pass = [&](MeshedState& at) {
     return contact ? apply(at, *contact, run.shortest_time(), arrival)
                    : apply(at, std::get<FrictionChange>(event), run.shortest_time());
@@ -133,7 +133,7 @@ bool rests_by(const Run& run, const StepEvent& event) {
 }
 
 bool step_over(Run& run, const Crossing& crossing) {
-  const bool follows_section = run.model->joints[crossing.joint].follows_section;
+  const bool follows_section = run.model->riders[crossing.rider].follows_section;
   const double before = follows_section ? run.mechanical_energy() : 0;
   std::optional<EnergyKeeping> keeping;    // of the run, which is the first to go over
   std::shared_ptr<const BeamSystem> over;  // its own
@@ -143,7 +143,7 @@ bool step_over(Run& run, const Crossing& crossing) {
                    solvers);
   };
   const MeshedState own = run.at;
-  if (!pass(run.at)) return run.fail_in_impact(crossing.joint);
+  if (!pass(run.at)) return run.fail_in_impact(crossing.rider);
   over = run.at.system;
   run.follow_from(own, pass);
   if (follows_section) run.account.lose(before - run.mechanical_energy());
@@ -151,14 +151,14 @@ bool step_over(Run& run, const Crossing& crossing) {
 }
 
 bool end_sliding(Run& run, const Crossing& ending) {
-  const int joint = ending.joint;
-  const bool leaves = run.model->joints[joint].leave_at_end && !is_held(*run.model, ending);
-  RunEvent event = event_before(run.at, leaves ? EventKind::left_beam : EventKind::stopped_at_end, joint);
+  const int rider = ending.rider;
+  const bool leaves = run.model->riders[rider].leave_at_end && !is_held(*run.model, ending);
+  RunEvent event = event_before(run.at, leaves ? EventKind::left_beam : EventKind::stopped_at_end, rider);
   const bool ended = run.change([&](MeshedState& at) {
     return end_sliding_at(at, corresponding_crossing(ending, *run.model, at.system->model()), leaves,
                           run.shortest_time());
   });
-  if (!ended) return run.fail_in_impact(joint);
+  if (!ended) return run.fail_in_impact(rider);
   if (!run.restart()) return false;
   finish_event(run.at, event);
   // In the impact, or what friction and buffers stored.
@@ -170,14 +170,14 @@ bool end_sliding(Run& run, const Crossing& ending) {
 bool pass_kink(Run& run) {
   int jumping = -1;
   for (const MotionKink& kink : motion_kinks(*run.model, run.at.state.t)) {
-    if (run.at.system->mesh().plan.modes[kink.joint] == JointMode::free) continue;
+    if (run.at.system->mesh().plan.modes[kink.rider] == Carried::free) continue;
     const std::optional<Crossing> end =
-        end_reached(*run.at.system, run.at.state, kink.joint, kink.before > 0);
-    const SlidingJoint& joint = run.model->joints[kink.joint];
-    const bool goes_on = run.at.state.t < joint.motion->rows().back().first;  // on the beam
-    const bool leaves = end && kink.before != 0 && !goes_on && joint.leave_at_end;
+        end_reached(*run.at.system, run.at.state, kink.rider, kink.before > 0);
+    const Rider& rider = run.model->riders[kink.rider];
+    const bool goes_on = run.at.state.t < rider.motion->rows().back().first;  // on the beam
+    const bool leaves = end && kink.before != 0 && !goes_on && rider.leave_at_end;
     if (!leaves || is_held(*run.model, *end))
-      jumping = kink.joint;
+      jumping = kink.rider;
     else if (!end_sliding(run, *end))
       return false;
   }
@@ -195,10 +195,10 @@ bool release_bodies(Run& run) {
   MeshPlan plan = present_plan(*run.at.system, run.at.state);
   std::vector<RunEvent> events;
   std::vector<int> released;
-  for (int j = 0; j < static_cast<int>(run.model->joints.size()); ++j)
-    if (plan.holds(j) && *run.model->joints[j].release <= run.at.state.t) {
+  for (int j = 0; j < static_cast<int>(run.model->riders.size()); ++j)
+    if (plan.holds(j) && *run.model->riders[j].release <= run.at.state.t) {
       plan.held[j] = false;
-      if (run.model->joints[j].friction) released.push_back(j);
+      if (run.model->riders[j].friction) released.push_back(j);
       events.push_back(event_before(run.at, EventKind::released, j));
     }
   if (events.empty()) return true;
@@ -218,7 +218,7 @@ bool release_bodies(Run& run) {
 void note_friction(Run& run, const State& before, const std::optional<StepEvent>& located) {
   if (before.memory.size() == 0) return;
   for (const int j : changed_ways(*run.at.system, before, run.at.state)) {
-    if (located && std::holds_alternative<FrictionChange>(*located) && joint_of(*run.model, *located) == j)
+    if (located && std::holds_alternative<FrictionChange>(*located) && rider_of(*run.model, *located) == j)
       continue;
     const bool sticks = sliding_way(*run.at.system, run.at.state, j) == 0;
     RunEvent event = event_before(run.at, sticks ? EventKind::sticks : EventKind::slides, j);

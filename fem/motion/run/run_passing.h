@@ -15,7 +15,7 @@ namespace nurbeam {
 [[nodiscard]] bool pass_first_impacts(Run& run);
 /// Whether the event has closed a hard stop.
 bool rests_by(const Run& run, const StepEvent& event);
-/// Goes on beyond a place that a joint has landed at: a point in the next element.
+/// Goes on beyond a place that a rider has landed at: a point in the next element.
 [[nodiscard]] bool step_over(Run& run, const Crossing& crossing);
 /// The body leaves its beam at the end that it has come to, or stops there.
 [[nodiscard]] bool end_sliding(Run& run, const Crossing& ending);

@@ -55,11 +55,11 @@ bool has_events(const BeamModel& model) {
 // Whether a step may be taken back: to where a place is reached or an event happens, by error control, or for
 // neighbours that follow.
 bool may_be_repeated(const Run& run) {
-  return !run.options.step || run.observer.follower || !run.model->joints.empty() || has_events(*run.model);
+  return !run.options.step || run.observer.follower || !run.model->riders.empty() || has_events(*run.model);
 }
 
 std::size_t kinds_of_event(const BeamModel& model) {
-  return model.joints.size() + model.stops.size() + model.connectors.size();
+  return model.riders.size() + model.stops.size() + model.connectors.size();
 }
 
 // That follow each other at one moment before they are taken for one that will never pass.
@@ -73,7 +73,7 @@ Failure endless(const Run& run, const StepEvent& event) {
                   .step = StepStatus::not_converged};
   if (std::holds_alternative<TautEvent>(event)) return failure;
   failure.kind = Failure::Kind::endless_events;
-  failure.joint = joint_of(*run.model, event);
+  failure.rider = rider_of(*run.model, event);
   return failure;
 }
 
@@ -151,7 +151,7 @@ std::optional<Crossing> land_at_first(Run& run, const State& before, const Integ
                                       const Find& find) {
   std::optional<Crossing> first;
   const State& state = run.at.state;
-  for (std::size_t i = 0; i <= run.model->joints.size() && state.t > before.t; ++i) {
+  for (std::size_t i = 0; i <= run.model->riders.size() && state.t > before.t; ++i) {
     const std::optional<Crossing> found = find(state);
     if (!found) break;
     first = found;

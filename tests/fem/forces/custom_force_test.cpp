@@ -27,11 +27,11 @@ template <int D>
 void check_custom_tangent(int seed) {
   std::mt19937 random(seed);
   BeamModel model = testing::model_with_everything(random, D);
-  using Point = CustomForce::Attachment;
+  using Point = Grip;
   const double L = model.beams[0].curve.length();
   // Beside the moving node, on a body, and far away.
-  model.forces.push_back(CustomForce{{Point::to_beam(0, 0.34 * L), Point::to_body(1)}, spring});
-  model.forces.push_back(CustomForce{{Point::to_beam(0, 0.8 * L), Point::to_beam(0, 0.32 * L)}, spring});
+  model.forces.push_back(CustomForce{{Point::on_beam(0, 0.34 * L), Point::on_body(1)}, spring});
+  model.forces.push_back(CustomForce{{Point::on_beam(0, 0.8 * L), Point::on_beam(0, 0.32 * L)}, spring});
   const BeamSystem system(model);
   State state = disturbed_state(system, random);
   state.t = 0.3;
@@ -68,7 +68,7 @@ TEST(CustomForce, ThatGivesTooFewForcesIsRefused) {
   BeamModel model =
       testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2, {300, 2, 0.7}, 4, {{0, true}});
   model.forces.push_back(CustomForce{
-      {CustomForce::Attachment::to_beam(0, 0.5)},
+      {Grip::on_beam(0, 0.5)},
       [](double, const Eigen::Matrix3Xd&, const Eigen::Matrix3Xd&) { return CustomForce::Response{}; }});
   const BeamSystem system(model);
   Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());

@@ -37,12 +37,12 @@ TEST(Mesh, NumbersEveryCoordinateOnce) {
     for (int i = 0; i < n; ++i) taken.insert(first + i);
   };
   for (const MeshNode& node : mesh.nodes[0]) {
-    if (node.joint < 0) take(node.r, 3);
+    if (node.rider < 0) take(node.r, 3);
     take(node.slope_left, 3);
     if (node.slope_right != node.slope_left) take(node.slope_right, 3);
   }
   for (const int body : mesh.bodies) take(body, 3);
-  for (const MeshJoint& joint : mesh.joints) take(joint.place, 1);
+  for (const MeshRider& joint : mesh.riders) take(joint.place, 1);
   EXPECT_EQ(static_cast<int>(taken.size()), mesh.coordinate_count);
   for (int i = 0; i < mesh.coordinate_count; ++i) EXPECT_EQ(taken.count(i), 1u) << i;
   const Eigen::VectorXd q = drawn_coordinates(model, mesh);
@@ -54,14 +54,14 @@ TEST(Mesh, AMovingNodeTakesThePlaceOfTheHomeNodeNearestToIt) {
   testing::add_slider(model, 1, 0.33);
   const Mesh mesh = make_mesh(model, initial_plan(model));
   ASSERT_EQ(mesh.nodes[0].size(), 11u);
-  EXPECT_EQ(mesh.nodes[0][3].joint, 0);
+  EXPECT_EQ(mesh.nodes[0][3].rider, 0);
   EXPECT_EQ(mesh.nodes[0][3].home, -1);
   EXPECT_EQ(mesh.bodies[0], mesh.nodes[0][3].r);
-  EXPECT_EQ(mesh.spans[2].place_b, mesh.joints[0].place);
-  EXPECT_EQ(mesh.spans[3].place_a, mesh.joints[0].place);
+  EXPECT_EQ(mesh.spans[2].place_b, mesh.riders[0].place);
+  EXPECT_EQ(mesh.spans[3].place_a, mesh.riders[0].place);
   Eigen::VectorXd q = drawn_coordinates(model, mesh);
   EXPECT_NEAR(mesh.spans[2].end(q), 0.33, 1e-15);
-  q[mesh.joints[0].place] = 0.36;
+  q[mesh.riders[0].place] = 0.36;
   EXPECT_EQ(find_span(model, mesh, q, 0, 0.35), 2);
   EXPECT_EQ(find_span(model, mesh, q, 0, 0.37), 3);
 }
@@ -70,12 +70,12 @@ TEST(MeshPlan, NearAnEndOrAPermanentNodeAJointIsAPoint) {
   BeamModel model =
       testing::one_beam({line_cubic({0, 0, 0}, {0.5, 0, 0}), line_cubic({0.5, 0, 0}, {1, 0, 0})}, 2,
                         {300, 2, 0.7}, 10, {{0, true}});
-  for (const auto& [s, mode] : {std::pair{0.015, JointMode::point},
-                                {0.025, JointMode::node},
-                                {0.497, JointMode::point},
-                                {0.49, JointMode::node},
-                                {0.985, JointMode::point}}) {
-    model.joints.clear();
+  for (const auto& [s, mode] : {std::pair{0.015, Carried::point},
+                                {0.025, Carried::node},
+                                {0.497, Carried::point},
+                                {0.49, Carried::node},
+                                {0.985, Carried::point}}) {
+    model.riders.clear();
     testing::add_slider(model, 1, s);
     EXPECT_EQ(initial_plan(model).modes[0], mode) << s;
   }

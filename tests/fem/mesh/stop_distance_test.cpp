@@ -23,7 +23,7 @@ BeamModel two_bodies(int dimension) {
   BeamModel model = testing::one_beam({bent}, dimension, {300, 2, 0.7}, 16, {{0, true}});
   testing::add_slider(model, 1, 0.61);
   testing::add_slider(model, 2, 1.02);
-  model.stops.push_back({.joint = 0, .other = 1, .place = gap});
+  model.stops.push_back({.rider = 0, .other = 1, .place = gap});
   return model;
 }
 
@@ -72,7 +72,7 @@ TEST(StopDistance, PressesBodiesAgainstEachOther) {
   BeamModel model = testing::one_beam({line_cubic({0, 0, 0}, {3, 0, 0})}, 3, {300, 2, 0.7}, 16, {{0, true}});
   testing::add_slider(model, 1, 1.1);
   testing::add_slider(model, 2, 1.5);
-  model.stops.push_back({.joint = 0, .other = 1, .place = gap});
+  model.stops.push_back({.rider = 0, .other = 1, .place = gap});
   const Mesh mesh = make_mesh(model, initial_plan(model));
   const StopDistance distance(model, mesh, model.stops[0]);
   const Eigen::VectorXd q = drawn_coordinates(model, mesh);

@@ -128,7 +128,7 @@ TEST(Body, WithTwoJointsHoldsTwoBeamsTogether) {
     EXPECT_EQ(find_static_equilibrium({}, system, state).status, StaticStatus::converged);
     if (both) {
       const Mesh& mesh = system.mesh();
-      EXPECT_EQ(mesh.nodes[0][mesh.joints[0].node].r, mesh.nodes[1][mesh.joints[1].node].r);
+      EXPECT_EQ(mesh.nodes[0][mesh.riders[0].node].r, mesh.nodes[1][mesh.riders[1].node].r);
     }
     return -state.q[system.mesh().bodies[ring] + 2];
   };

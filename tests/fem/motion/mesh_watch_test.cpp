@@ -44,7 +44,7 @@ class Walk {
 
   /// One step, and the changes that are due. Whether the watch says that there is none.
   bool go() {
-    for (std::size_t j = 0; j < model_->joints.size(); ++j) move(static_cast<int>(j), step_(random_));
+    for (std::size_t j = 0; j < model_->riders.size(); ++j) move(static_cast<int>(j), step_(random_));
     const bool quiet = watch_.is_quiet(system_, state_);
     if (quiet) return expect_nothing(), true;
     while (true) {
@@ -63,12 +63,12 @@ class Walk {
   void take(MeshPlan plan) {
     system_ = std::make_shared<const BeamSystem>(model_, std::move(plan));
     state_ = drawn_state(*system_);
-    for (std::size_t j = 0; j < model_->joints.size(); ++j) move(static_cast<int>(j), 0);
+    for (std::size_t j = 0; j < model_->riders.size(); ++j) move(static_cast<int>(j), 0);
   }
   // Along a beam that is no ring to one of its ends at most.
   void move(int j, double by) {
-    const int place = system_->mesh().joints[j].place;
-    const Beam& beam = model_->beam_of(model_->joints[j]);
+    const int place = system_->mesh().riders[j].place;
+    const Beam& beam = model_->beam_of(model_->riders[j]);
     const double end = beam.is_ring() ? 1e9 : beam.curve.length();
     state_.q[place] = std::clamp(state_.q[place] + by, beam.is_ring() ? -1e9 : 0, end);
     state_.v[place] = by;
@@ -77,9 +77,9 @@ class Walk {
   void expect_nothing() const {
     State state = state_;
     for (const double sign : {1, -1}) {
-      for (const MeshJoint& joint : system_->mesh().joints) state.v[joint.place] = sign;
+      for (const MeshRider& joint : system_->mesh().riders) state.v[joint.place] = sign;
       EXPECT_EQ(next_plan(*system_, state, LengthControl{}).change, MeshChange::none)
-          << state.q[system_->mesh().joints[0].place];
+          << state.q[system_->mesh().riders[0].place];
     }
   }
 

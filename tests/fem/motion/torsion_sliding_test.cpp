@@ -57,7 +57,7 @@ int count(const SimulationReport& report, EventKind kind) {
 TEST(TorsionSliding, LeavesARailAtRestUnderABodyWithoutMass) {
   BeamModel model = rail(1e-9, 0, {0, 0, 0});
   const double L = model.beams[0].curve.length();
-  model.joints[0].motion = TimeTable{{0, 0.23 * L}, {1, 0.77 * L}};
+  model.riders[0].motion = TimeTable{{0, 0.23 * L}, {1, 0.77 * L}};
   double largest = 0;
   const SimulationReport report = run_sliding(model, 1, 2e-3, [&](const Snapshot& now) {
     largest = std::max({largest, now.energy.kinetic, now.energy.axial + now.energy.bending});

@@ -30,7 +30,7 @@ double turned_by_a_held_weight(double L, double s, double mass, double offset, d
   ModelBuilder builder(3, {0, 0, -10});
   builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {L, 0, 0})}, 3), properties, {8});
   builder.fork(0, 0).fork(0, L);
-  SlidingJoint& joint = builder.slide(builder.add_body("weight", mass), 0, s);
+  Rider& joint = builder.slide(builder.add_body("weight", mass), 0, s);
   joint.follows_section = true;
   joint.offset = {offset, 0};  // d1 is y where d2 is z
   BeamModel model = builder.build();
@@ -81,7 +81,7 @@ TEST(Trolley, RunsDownATwistedRailAsOneCoordinateDoes) {
                        .oriented({Orientation::Rule::up, {0, 0, 1}, {{0, 0}, {L, tau * L}}}),
                    properties, {10});
   builder.clamp(0, 0).clamp(0, L);
-  SlidingJoint& joint = builder.slide(builder.add_body("trolley", mass), 0, start, 0.4);
+  Rider& joint = builder.slide(builder.add_body("trolley", mass), 0, start, 0.4);
   joint.follows_section = true;
   joint.offset = {0, e};  // above the rail where it starts
   BeamModel model = builder.build();
@@ -123,7 +123,7 @@ BeamModel trolley_rail(double speed, const Vector3d& gravity, bool clamped, bool
                    properties, {10});
   const double L = builder.beam(0).curve.length();
   if (clamped) builder.clamp(0, 0).clamp(0, L);
-  SlidingJoint& joint = builder.slide(builder.add_body("trolley", 0.3), 0, 0.23 * L, speed);
+  Rider& joint = builder.slide(builder.add_body("trolley", 0.3), 0, 0.23 * L, speed);
   joint.continuous_slope = !kinked;
   if (!kinked) {
     joint.follows_section = true;
@@ -198,7 +198,7 @@ TEST(Trolley, TakesItsMotionWithItWhereItLeavesTheRail) {
                        .oriented({Orientation::Rule::up, {0, 0, 1}, {{0, 0}, {L, 2}}}),
                    properties, {6});
   builder.clamp(0, 0);
-  SlidingJoint& joint = builder.slide(builder.add_body("trolley", 0.1), 0, 0.8, 2);
+  Rider& joint = builder.slide(builder.add_body("trolley", 0.1), 0, 0.8, 2);
   joint.follows_section = true;
   joint.offset = {0.05, 0.1};
   BeamModel model = builder.build();
@@ -228,7 +228,7 @@ TEST(Trolley, GoesAroundARingWithHolonomy) {
   builder.add_beam(curve, with_sections(0), {12});
   const double L = curve.length();
   builder.clamp(0, 0.6 * L);
-  SlidingJoint& joint = builder.slide(builder.add_body("bead", 1e-9), 0, 0.1 * L);
+  Rider& joint = builder.slide(builder.add_body("bead", 1e-9), 0, 0.1 * L);
   joint.motion = TimeTable{{0, 0.1 * L}, {1, 1.15 * L}};
   joint.follows_section = true;
   joint.offset = {0.05, 0.02};

@@ -88,7 +88,7 @@ void check_tangent(int seed, const auto& make_model) {
   std::mt19937 random(seed);
   const BeamModel model = make_model(random, D);
   for (const bool held : {false, true}) {
-    std::vector<bool> all_held(model.joints.size(), false);
+    std::vector<bool> all_held(model.riders.size(), false);
     std::fill_n(all_held.begin(), std::min<std::size_t>(all_held.size(), 2), held);
     const BeamSystem system(model, initial_plan(model), all_held);
     State state = disturbed_state(system, random);
@@ -165,7 +165,7 @@ void check_moving_part(int seed, int dimension, double damping) {
   EXPECT_EQ(unknowns.size(), 2u * (3 * 2 * static_cast<unsigned>(dimension) + 1));
   State state = testing::disturbed_state(system, random);
   State moved = state;
-  for (const MeshJoint& joint : system.mesh().joints) {
+  for (const MeshRider& joint : system.mesh().riders) {
     moved.q[joint.place] += 0.1 * L / 40;
     moved.v[joint.place] += 0.3;
   }
@@ -193,7 +193,7 @@ TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithABodyThatRollsOnAPoin
   const BeamModel model = torsion_sliding_model(random, 0.3);
   const BeamSystem system(model);
   State state = disturbed_state(system, random);
-  for (const MeshJoint& joint : system.mesh().joints) state.v[joint.place] = 0;
+  for (const MeshRider& joint : system.mesh().riders) state.v[joint.place] = 0;
   expect_tangent(system, state, random);
 }
 
@@ -203,9 +203,9 @@ BeamModel rubbing_model(std::mt19937& random, int dimension, Friction::Law law) 
   const ReferenceCurve guide(uneven_axis(random, dimension), dimension);
   model.beams.push_back(
       {.name = "guide", .curve = guide, .properties = {}, .rigid = true, .home = guide_nodes(guide)});
-  model.joints[2].motion.reset();
+  model.riders[2].motion.reset();
   add_slider(model, 0.7, 0.6 * guide.length()).beam = 1;
-  for (SlidingJoint& joint : model.joints)
+  for (Rider& joint : model.riders)
     joint.friction = Friction{
         .coefficient = 0.4, .law = law, .force = {{0, 40}, {1, 80}}, .viscous = 2, .stick_stiffness = 100};
   model.air = {1.2, {3, -1, dimension == 3 ? 2.0 : 0.0}};
@@ -225,7 +225,7 @@ void check_rubbing_tangent(int seed, Friction::Law law) {
     state.lambda *= 10;
     state.memory = Eigen::VectorXd::Zero(12);
     for (int j = 0; j < 4; ++j) {
-      const double s = state.q[system.mesh().joints[j].place];
+      const double s = state.q[system.mesh().riders[j].place];
       state.memory.segment<3>(3 * j) << 0.02 * (j - 1), s - 0.01, way;
       const FrictionForce friction = *sliding_friction(system, state, j);
       EXPECT_EQ(std::abs(friction.trial) < friction.bound, true) << "one that sticks holds";
@@ -246,7 +246,7 @@ TEST(BeamSystem, WithoutItsMemoryFrictionDoesNothing) {
   BeamModel model = rubbing_model(random, 2, Friction::Law::coulomb);
   const BeamSystem rubbing(model);
   const State state = disturbed_state(rubbing, random);
-  for (SlidingJoint& joint : model.joints) joint.friction = Friction{};
+  for (Rider& joint : model.riders) joint.friction = Friction{};
   const BeamSystem smooth(model);
   EXPECT_EQ(residual(rubbing, state), residual(smooth, state));
 }
@@ -428,7 +428,7 @@ State run(const BeamModel& model, int steps, double end) {
 TEST(BeamSystem, IsIntegratedToSecondOrderInPositionVelocityAndMultiplier) {
   BeamModel model = one_beam({line_cubic({0, 0, 0}, {1, 0, 0})}, 2, {60, 0.5, 2, 0, {}}, 4, {{0, true}});
   testing::add_slider(model, 0.8, 0.4);
-  model.joints[0].speed = 0.2;
+  model.riders[0].speed = 0.2;
   const double end = 0.1;
   const State fine = run(model, 4800, end);
   std::vector<Eigen::Vector3d> errors;

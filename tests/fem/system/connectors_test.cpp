@@ -22,19 +22,18 @@ BeamModel connected_model(std::mt19937& random, int dimension) {
   const int slider = builder.add_body("slider", 0.8), load = builder.add_body("load", 2, {1, -0.7, 0}),
             other = builder.add_body("other", 1.5, {0.4, -0.9, 0});
   builder.slide(slider, a, 0.6, 0.4);
-  const auto on = [&](double s) { return ConnectorEnd::on_beam(a, s); };
-  const auto fastened = [&](ConnectorEnd from, ConnectorEnd to, ConnectorType type) -> Connector& {
+  const auto on = [&](double s) { return Grip::on_beam(a, s); };
+  const auto fastened = [&](Grip from, Grip to, ConnectorType type) -> Connector& {
     Connector& c = builder.connect(from, to, type, 40);
     c.damping = 3;
     return c;
   };
-  fastened(on(1.1), ConnectorEnd::on_body(load), ConnectorType::spring);
-  fastened(ConnectorEnd::on_body(slider), ConnectorEnd::on_body(load), ConnectorType::tension_only).length =
-      0.1;
-  fastened(on(0.3), ConnectorEnd::at_point({0.3, -1, 0}), ConnectorType::compression_only).length = 3;
-  Connector& upright = fastened(on(1.5), ConnectorEnd::on_body(other), ConnectorType::spring);
+  fastened(on(1.1), Grip::on_body(load), ConnectorType::spring);
+  fastened(Grip::on_body(slider), Grip::on_body(load), ConnectorType::tension_only).length = 0.1;
+  fastened(on(0.3), Grip::at_point({0.3, -1, 0}), ConnectorType::compression_only).length = 3;
+  Connector& upright = fastened(on(1.5), Grip::on_body(other), ConnectorType::spring);
   upright.direction = Eigen::Vector3d(0, -1, 0);
-  builder.connect(ConnectorEnd::on_body(slider), ConnectorEnd::on_body(other), ConnectorType::rod);
+  builder.connect(Grip::on_body(slider), Grip::on_body(other), ConnectorType::rod);
   builder.add(PlaceMass{.beam = a, .s = 1.1, .mass = 0.5});
   builder.add(PlaceMass{.beam = a, .s = 1.9, .mass = 0.9, .weighs = false});
   return builder.build();
@@ -94,7 +93,7 @@ TEST(ConnectedSystem, EnergyIsWhatForcesWorkAgainst) {
     const BeamSystem system(connected_model(random, dimension));
     State state = disturbed_state(system, random, 0.02);
     state.lambda.setZero();
-    for (const MeshJoint& joint : system.mesh().joints)
+    for (const MeshRider& joint : system.mesh().riders)
       if (joint.place >= 0) state.v[joint.place] = 0;
     State still = state;
     still.v.setZero();
@@ -185,8 +184,8 @@ TEST(ConnectedSystem, GoesOnFromACheckpointBitByBit) {
   const int b = builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {4, 0, 0})}, 2), wire, {16});
   builder.pin(b, 0).guide(b, 4, {1, 0, 0}).force(b, 4, {2e3, 0, 0});
   for (const double s : {1.0, 2.0, 3.0}) {
-    Connector& dropper = builder.connect(ConnectorEnd::on_beam(b, s), ConnectorEnd::at_point({s, 1, 0}),
-                                         ConnectorType::tension_only, 2e4);
+    Connector& dropper =
+        builder.connect(Grip::on_beam(b, s), Grip::at_point({s, 1, 0}), ConnectorType::tension_only, 2e4);
     dropper.damping = 20;
     dropper.length_rule = ConnectorLength::as_drawn;
     builder.add(PlaceMass{.beam = b, .s = s, .mass = 0.2});
@@ -226,8 +225,7 @@ TEST(PlaceMass, NeedsItsNode) {
   model.forces.push_back(PlaceMass{.beam = b, .s = 0.33, .mass = 1});
   EXPECT_THROW(BeamSystem{model}, std::invalid_argument);
   model.forces.clear();
-  model.connectors.push_back(
-      {.name = "c", .ends = {ConnectorEnd::on_beam(b, 0.33), ConnectorEnd::at_point({0, 1, 0})}});
+  model.connectors.push_back({.name = "c", .ends = {Grip::on_beam(b, 0.33), Grip::at_point({0, 1, 0})}});
   EXPECT_THROW(BeamSystem{model}, std::invalid_argument);
 }
 

@@ -49,7 +49,7 @@ TEST(BecomingANode, IsThatOfTheMeshPlannedForThePlace) {
     const auto shared = std::make_shared<const BeamModel>(model);
     MeshPlan as_point = initial_plan(model), planned = as_point, planned_elsewhere = as_point;
     as_point.beams[0].present.assign(as_point.beams[0].present.size(), true);
-    as_point.modes[0] = JointMode::point;
+    as_point.modes[0] = Carried::point;
     planned_elsewhere.places[0] = s - 0.004 * L;
     const BeamSystem from(shared, as_point), to(shared, planned), elsewhere(shared, planned_elsewhere);
     const State state = disturbed_state(from, random, 0.001);

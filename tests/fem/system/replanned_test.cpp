@@ -115,7 +115,7 @@ TEST(Replanned, MeansAllUnknownsWhereModesOfJointsChange) {
   const BeamModel model = long_beam(random, 2);
   const BeamSystem from(model);
   MeshPlan plan = initial_plan(model);
-  plan.modes[1] = JointMode::point;
+  plan.modes[1] = Carried::point;
   EXPECT_TRUE(changed_unknowns(from, *from.replanned(plan)).empty());
 }
 
@@ -240,7 +240,7 @@ TEST(CarriedSums, AreThoseOfTheOtherMesh) {
           for (std::size_t i = 0; i < to.mesh().nodes[0].size(); ++i) {
             const MeshNode& node = to.mesh().nodes[0][i];
             for (const MeshNode& old : from.mesh().nodes[0]) {
-              if (old.home != node.home || old.joint != node.joint || i % 40 == 3) continue;
+              if (old.home != node.home || old.rider != node.rider || i % 40 == 3) continue;
               for (const auto& [target, source] :
                    {std::pair{node.r, old.r}, {node.slope_left, old.slope_left}}) {
                 next.q.segment(target, to.dimension()) = state.q.segment(source, to.dimension());

@@ -328,7 +328,7 @@ TEST(BuildModel, GivesTorsionWhereAKeyNeedsSections) {
   ASSERT_TRUE(trolley.value) << trolley.diagnostics[0].message;
   EXPECT_TRUE(trolley.value->model.beams[0].has_torsion());
   EXPECT_EQ(trolley.value->model.bodies[0].roll_inertia, 2);
-  EXPECT_EQ(trolley.value->model.joints[0].offset, Eigen::Vector2d(0.01, -0.02));
+  EXPECT_EQ(trolley.value->model.riders[0].offset, Eigen::Vector2d(0.01, -0.02));
 }
 
 TEST(BuildModel, NotesWhatIsTakenForTorsionWhenNothingIsSaid) {

@@ -149,7 +149,7 @@ TEST(Restart, WithConnectorsARunGoesOnBitByBit) {
   model.beams[0].properties.damping = model.beams[0].properties.tension_damping = 1e-3;
   const double s = model.beams[0].home.back().s;
   model.connectors = {{.name = "dropper",
-                       .ends = {ConnectorEnd::on_beam(0, s), ConnectorEnd::at_point({s, 0.5, 0})},
+                       .ends = {Grip::on_beam(0, s), Grip::at_point({s, 0.5, 0})},
                        .type = ConnectorType::tension_only,
                        .stiffness = 2000,
                        .damping = 3,
@@ -158,7 +158,7 @@ TEST(Restart, WithConnectorsARunGoesOnBitByBit) {
   model.forces.push_back(PlaceMass{.beam = 0, .s = s, .mass = 0.3});
   SimulationOptions options = options_with(GeneralizedAlpha{}, 1e-3);
   options.start_from_equilibrium = true;
-  model.joints[0].speed = 0.5;
+  model.riders[0].speed = 0.5;
   expect_resumes_bit_by_bit(model, options);
 }
 

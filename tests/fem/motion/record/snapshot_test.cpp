@@ -165,8 +165,8 @@ TEST(RecordedConnectors, HaveTheirEndsWhereThatIsWhichTheyHold) {
                    {.elements = 2});
   builder.pin(0, 0);
   const int body = builder.add_body("load", 3, {1.5, -1, 0});
-  builder.connect(ConnectorEnd::on_beam(0, 2), ConnectorEnd::on_body(body), ConnectorType::spring, 10);
-  builder.connect(ConnectorEnd::at_point({0.5, 2, 0}), ConnectorEnd::on_beam(0, 2), ConnectorType::rod);
+  builder.connect(Grip::on_beam(0, 2), Grip::on_body(body), ConnectorType::spring, 10);
+  builder.connect(Grip::at_point({0.5, 2, 0}), Grip::on_beam(0, 2), ConnectorType::rod);
   const BeamModel model = builder.build();
   const BeamSystem system(model, initial_plan(model));
   const State state = moved_state(system);

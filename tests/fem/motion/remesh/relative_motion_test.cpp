@@ -99,7 +99,7 @@ TEST(RelativeMotion, LeavesWhatConstraintsHold) {
   std::mt19937 random(42);
   BeamModel model = testing::joined_model(random, 3);
   const auto& home = model.beams[0].home;
-  model.joints.clear();
+  model.riders.clear();
   const int last = static_cast<int>(home.size()) - 1;
   testing::add_slider(model, 0.8, home[last].s - 0.3 * (home[last].s - home[last - 1].s));
   MeshPlan full = initial_plan(model), coarse = full;

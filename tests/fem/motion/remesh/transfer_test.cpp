@@ -191,7 +191,7 @@ State disturbed_within_constraints(const BeamSystem& system, std::mt19937& rando
 // The home node before or after the joint goes, and the new element reaches to a place that is held.
 void check_merge_beside(BeamModel model, int home, int direction, std::mt19937& random) {
   const auto& nodes = model.beams[0].home;
-  model.joints.clear();
+  model.riders.clear();
   testing::add_slider(model, 0.8, nodes[home].s - direction * 0.3 * (nodes[home + 1].s - nodes[home].s));
   MeshPlan full = initial_plan(model), coarse = full;
   full.beams[0].present.assign(nodes.size(), true);
@@ -243,7 +243,7 @@ NextPlan settled(const BeamModel& model, MeshPlan plan, double s, double speed) 
   while (true) {
     const BeamSystem system(model, last.plan);
     State state = drawn_state(system);
-    state.v[system.mesh().joints[0].place] = speed;
+    state.v[system.mesh().riders[0].place] = speed;
     const NextPlan next = next_plan(system, state, LengthControl{});
     if (next.change == MeshChange::none) return last;
     last = next;
@@ -253,7 +253,7 @@ NextPlan settled(const BeamModel& model, MeshPlan plan, double s, double speed) 
 TEST(PermanentNode, IsPassedAsAPointAndNeverRemoved) {
   BeamModel model = two_lines();
   for (const double speed : {1.0, -1.0}) {
-    model.joints.clear();
+    model.riders.clear();
     testing::add_slider(model, 0.8, 0.5 - speed * 0.15);
     MeshPlan plan = initial_plan(model);
     const auto mode_at = [&](double ahead) {
@@ -261,30 +261,30 @@ TEST(PermanentNode, IsPassedAsAPointAndNeverRemoved) {
       EXPECT_TRUE(plan.beams[0].present[5]) << ahead;
       return plan.modes[0];
     };
-    EXPECT_EQ(mode_at(-0.0055), JointMode::node);
-    EXPECT_EQ(mode_at(-0.0041), JointMode::node);
-    EXPECT_EQ(mode_at(-0.0039), JointMode::point);
-    EXPECT_EQ(mode_at(0.001), JointMode::point);
-    EXPECT_EQ(mode_at(0.0049), JointMode::point);
-    EXPECT_EQ(mode_at(0.0051), JointMode::node);
+    EXPECT_EQ(mode_at(-0.0055), Carried::node);
+    EXPECT_EQ(mode_at(-0.0041), Carried::node);
+    EXPECT_EQ(mode_at(-0.0039), Carried::point);
+    EXPECT_EQ(mode_at(0.001), Carried::point);
+    EXPECT_EQ(mode_at(0.0049), Carried::point);
+    EXPECT_EQ(mode_at(0.0051), Carried::node);
   }
 }
 
 TEST(PermanentNode, MakesAPointOfAJointThatStartsOnIt) {
   BeamModel model = two_lines();
   testing::add_slider(model, 0.8, 0.5);
-  EXPECT_EQ(initial_plan(model).modes[0], JointMode::point);
+  EXPECT_EQ(initial_plan(model).modes[0], Carried::point);
   EXPECT_TRUE(initial_plan(model).beams[0].present[5]);
 }
 
 TEST(PermanentNode, GivesWayToAJointWhoseSlopeMayBeDiscontinuous) {
   BeamModel model = two_lines();
   testing::add_slider(model, 0.8, 0.35);
-  model.joints[0].continuous_slope = false;
+  model.riders[0].continuous_slope = false;
   MeshPlan plan = initial_plan(model);
   for (const auto& [s, present] : {std::pair{0.4955, true}, {0.4961, false}, {0.504, false}, {0.506, true}}) {
     plan = settled(model, plan, s, 1).plan;
-    EXPECT_EQ(plan.modes[0], JointMode::node) << s;
+    EXPECT_EQ(plan.modes[0], Carried::node) << s;
     EXPECT_EQ(plan.beams[0].present[5], present) << s;
   }
 }

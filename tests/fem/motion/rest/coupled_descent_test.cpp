@@ -71,7 +71,7 @@ double angle_of(const Snapshot& rest, int body) { return *rest.bodies[body].s / 
 TEST(CoupledRest, OfTwoBodiesOnAStrutIsThatOfBothTogether) {
   for (const double stiffness : {2e2, 2e4, 2e6, 2e8}) {
     ModelBuilder builder = bowl(0.5, 2);
-    builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::spring, stiffness);
+    builder.connect(Grip::on_body(0), Grip::on_body(1), ConnectorType::spring, stiffness);
     BeamModel model = builder.build();
     const double length = 2 * radius_of_bowl * std::sin(0.75 / radius_of_bowl);
     model.connectors[0].length = length;
@@ -95,7 +95,7 @@ TEST(CoupledRest, OfTwoBodiesAgainstEachOtherIsThatOfBothTogether) {
   for (const std::optional<Buffer>& buffer : {std::optional<Buffer>{}, std::optional<Buffer>{Buffer{3e4}}})
     for (const double start : {0.5, 12.0}) {
       BeamModel model = bowl(start, start + 1.5).build();
-      model.stops = {{.joint = 0, .other = 1, .place = gap, .buffer = buffer}};
+      model.stops = {{.rider = 0, .other = 1, .place = gap, .buffer = buffer}};
       const Snapshot rest = rest_of(model);
       const double first = angle_of(rest, 0), second = angle_of(rest, 1);
       EXPECT_NEAR(first_mass * std::sin(first) + second_mass * std::sin(second), 0, 1e-6);
@@ -115,8 +115,7 @@ TEST(CoupledRest, OfATrainOnARopeIsAboutItsMiddle) {
     builder.pin(0, 0).pin(0, 20);
     for (const double s : {4.0, 6.0})
       builder.slide(builder.add_body("", first_mass), 0, s).continuous_slope = false;
-    builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), type,
-                    type == ConnectorType::rod ? 0 : 1e7);
+    builder.connect(Grip::on_body(0), Grip::on_body(1), type, type == ConnectorType::rod ? 0 : 1e7);
     const Snapshot rest = rest_of(builder.build());
     EXPECT_NEAR(*rest.bodies[0].s + *rest.bodies[1].s, 20, 1e-5);
     EXPECT_NEAR(*rest.bodies[1].s - *rest.bodies[0].s, 2, 1e-2);
@@ -134,7 +133,7 @@ TEST(CoupledRest, OfTwoBodiesThatNearlyLieOnAStopIsOnIt) {
     builder.slide(builder.add_body("", 10), 0, 1 + off);
     builder.slide(builder.add_body("", 20), 0, 1.5 + 2 * off);
     BeamModel model = builder.build();
-    model.stops = {{.joint = 0, .place = 1, .from_below = false}, {.joint = 0, .other = 1, .place = 0.5}};
+    model.stops = {{.rider = 0, .place = 1, .from_below = false}, {.rider = 0, .other = 1, .place = 0.5}};
     const Snapshot rest = rest_of(model);
     EXPECT_NEAR(*rest.bodies[0].s, 1, 1e-9) << off;
     EXPECT_NEAR(*rest.bodies[1].s, 1.5, 1e-5) << off;  // the bar bends between them
@@ -153,12 +152,12 @@ TEST(CoupledRest, OfATrolleyWithALoadIsWhereTheRopeIsLowest) {
     builder.slide(builder.add_body("", 10), 0, 3).continuous_slope = false;
     if (rod) {
       builder.add_body("", 50, {2.5, -1.5, 0});
-      builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::rod);
+      builder.connect(Grip::on_body(0), Grip::on_body(1), ConnectorType::rod);
     } else {
       builder.slide(builder.add_body("", 10), 0, 15).continuous_slope = false;
     }
     BeamModel model = builder.build();
-    if (!rod) model.stops = {{.joint = 0, .other = 1, .place = 2, .buffer = Buffer{2000}}};
+    if (!rod) model.stops = {{.rider = 0, .other = 1, .place = 2, .buffer = Buffer{2000}}};
     const Snapshot rest = rest_of(model);
     const double second = rod ? *rest.bodies[0].s : *rest.bodies[1].s;
     EXPECT_NEAR((*rest.bodies[0].s + second) / 2, 10, 1e-5) << rod;
@@ -171,7 +170,7 @@ TEST(CoupledRest, IsWhereFrictionHoldsEach) {
   const Friction friction{.coefficient = 0.2};
   const auto with_strut = [&](double first, double second) {
     ModelBuilder builder = bowl(first, second, friction);
-    builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::spring, 1e7);
+    builder.connect(Grip::on_body(0), Grip::on_body(1), ConnectorType::spring, 1e7);
     BeamModel model = builder.build();
     model.connectors[0].length = 2 * radius_of_bowl * std::sin((second - first) / (2 * radius_of_bowl));
     return rest_of(model);
@@ -209,7 +208,7 @@ void expect_leaving(const BeamModel& model, int joint) {
   const SimulationReport report = resting(model);
   ASSERT_TRUE(report.failure);
   EXPECT_EQ(report.failure->kind, Failure::Kind::leaves_beam);
-  EXPECT_EQ(report.failure->joint, joint);
+  EXPECT_EQ(report.failure->rider, joint);
   EXPECT_NEAR(report.failure->places[joint].s, 5, 1e-9);
 }
 
@@ -217,28 +216,28 @@ TEST(RestAtAnEnd, IsNoneForABodyThatSlidesOff) {
   for (const double start : {1.0, 5.0}) expect_leaving(slope({start}).build(), 0);
   ModelBuilder with_friction = slope({1});
   BeamModel model = with_friction.build();
-  model.joints[0].friction = Friction{.coefficient = 0.1};
+  model.riders[0].friction = Friction{.coefficient = 0.1};
   expect_leaving(model, 0);
 }
 
 TEST(RestAtAnEnd, IsThatOfABodyThatSomethingHolds) {
   BeamModel stopped_by_end = slope({1}).build();
-  stopped_by_end.joints[0].leave_at_end = false;
+  stopped_by_end.riders[0].leave_at_end = false;
   EXPECT_NEAR(*rest_of(stopped_by_end).bodies[0].s, 5, 1e-9);
   for (const double start : {1.0, 5.0}) {
     BeamModel stopped = slope({start}).build();
-    stopped.stops = {{.joint = 0, .place = 5}};
+    stopped.stops = {{.rider = 0, .place = 5}};
     EXPECT_NEAR(*rest_of(stopped).bodies[0].s, 5, 1e-9) << start;
   }
   // Pressed inwards, against a stop at the upper end.
   BeamModel inwards = slope({0}).build();
-  inwards.stops = {{.joint = 0, .place = 0}};
+  inwards.stops = {{.rider = 0, .place = 0}};
   EXPECT_NEAR(*rest_of(inwards).bodies[0].s, 0, 1e-9);
   BeamModel held = slope({5}).build();
-  held.joints[0].rest = StaticPlace::held;
+  held.riders[0].rest = StaticPlace::held;
   EXPECT_NEAR(*rest_of(held).bodies[0].s, 5, 1e-9);
   BeamModel rough = slope({5}).build();
-  rough.joints[0].friction = Friction{.coefficient = 0.9};
+  rough.riders[0].friction = Friction{.coefficient = 0.9};
   EXPECT_NEAR(*rest_of(rough).bodies[0].s, 5, 1e-9);
   BeamModel weightless = slope({5}).build();
   weightless.gravity.setZero();
@@ -247,9 +246,9 @@ TEST(RestAtAnEnd, IsThatOfABodyThatSomethingHolds) {
 
 TEST(RestAtAnEnd, IsNoneForBodiesOfWhichOneSlidesOff) {
   BeamModel model = slope({1, 3}).build();
-  model.stops = {{.joint = 0, .other = 1, .place = 1}};
+  model.stops = {{.rider = 0, .other = 1, .place = 1}};
   expect_leaving(model, 1);
-  model.stops.push_back({.joint = 1, .place = 5});
+  model.stops.push_back({.rider = 1, .place = 5});
   const Snapshot rest = rest_of(model);
   EXPECT_NEAR(*rest.bodies[0].s, 4, 1e-9);
   EXPECT_NEAR(*rest.bodies[1].s, 5, 1e-9);
@@ -263,9 +262,9 @@ TEST(RestAtAnEnd, IsThatOfABodyThatBearsAnotherByASpring) {
       const Eigen::Vector3d end(std::hypot(8, askew), -6, 0);
       builder.add_guide(ReferenceCurve({testing::line_cubic({0, 0, 0}, end)}, 2));
       for (const double s : {2.0, 4.0}) builder.slide(builder.add_body("", 10), 0, s);
-      builder.connect(ConnectorEnd::on_body(0), ConnectorEnd::on_body(1), ConnectorType::spring, stiffness);
+      builder.connect(Grip::on_body(0), Grip::on_body(1), ConnectorType::spring, stiffness);
       BeamModel model = builder.build();
-      model.stops = {{.joint = 1, .place = 7}};
+      model.stops = {{.rider = 1, .place = 7}};
       const Snapshot rest = rest_of(model);
       const double pull = 10 * gravity_of_bowl * 6 / end.norm();
       EXPECT_NEAR(*rest.bodies[1].s, 7, 1e-9) << askew;
@@ -278,7 +277,7 @@ TEST(RestAtAnEnd, IsWhereABufferHoldsABody) {
   for (const double start : {0.3, 1.0, 2.2, 3.9})
     for (const double stiffness : {1e2, 3e4, 1e6}) {
       BeamModel model = slope({start}).build();
-      model.stops = {{.joint = 0, .place = 4, .buffer = Buffer{stiffness}}};
+      model.stops = {{.rider = 0, .place = 4, .buffer = Buffer{stiffness}}};
       const double pull = first_mass * gravity_of_bowl * 0.6;
       const double rest = std::min(5.0, 4 + pull / stiffness);
       if (rest < 5)

@@ -31,12 +31,12 @@ class PulledFromItsStop {
     builder.add_guide(ReferenceCurve({line_cubic({0, 0, 0}, {1, 0, 0})}, 2));
     const int body = builder.add_body("body", 2);
     builder.slide(body, 0, 0.5);
-    builder.add(CustomForce{{CustomForce::Attachment::to_body(body)},
-                            [this](double, const Eigen::Matrix3Xd&, const Eigen::Matrix3Xd&) {
-                              return CustomForce::Response{Eigen::Vector3d(pull_, 0, 0), {}, {}};
-                            }});
+    builder.add(
+        CustomForce{{Grip::on_body(body)}, [this](double, const Eigen::Matrix3Xd&, const Eigen::Matrix3Xd&) {
+                      return CustomForce::Response{Eigen::Vector3d(pull_, 0, 0), {}, {}};
+                    }});
     BeamModel model = builder.build();
-    model.stops = {{.joint = 0, .place = 0.5}};
+    model.stops = {{.rider = 0, .place = 0.5}};
     return std::make_shared<const BeamModel>(std::move(model));
   }
   static SimulationOptions options() {
@@ -60,7 +60,7 @@ TEST(TakeStep, EventsThatFollowEachOtherAtOneMomentEndTheRunWhenTheyAreTooMany) 
   EXPECT_EQ(late.run().report.status, SimulationStatus::not_converged);
   ASSERT_TRUE(late.run().report.failure);
   EXPECT_EQ(late.run().report.failure->kind, Failure::Kind::endless_events);
-  EXPECT_EQ(late.run().report.failure->joint, 0);
+  EXPECT_EQ(late.run().report.failure->rider, 0);
   EXPECT_EQ(late.run().report.failure->time, 0);
 }
 
@@ -75,7 +75,7 @@ TEST(TakeStep, EventsAtOneMomentAreCountedUntilTimeGoesOn) {
   ASSERT_TRUE(take_step(run, 1e-3, 0));
   EXPECT_NEAR(run.at.state.t, 1e-3, 1e-15);
   EXPECT_EQ(run.events_at_once, 0);
-  EXPECT_NEAR(run.at.state.q[run.at.system->mesh().joints[0].place], 0.5 - 2.5e-6, 1e-9);
+  EXPECT_NEAR(run.at.state.q[run.at.system->mesh().riders[0].place], 0.5 - 2.5e-6, 1e-9);
 }
 
 }  // namespace

@@ -121,12 +121,11 @@ TEST(SimulationTest, WhatAForceThrowsArrivesAndTheMotionGoesOnFromItsLastStep) {
   struct Refusal {};
   auto model = std::make_shared<BeamModel>(*swinging_cantilever());
   auto refuses = std::make_shared<bool>(false);
-  model->forces.push_back(
-      CustomForce{{CustomForce::Attachment::to_beam(0, 1)},
-                  [refuses](double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
-                    if (*refuses) throw Refusal{};
-                    return CustomForce::Response{Eigen::Matrix3Xd::Zero(3, r.cols()), {}, {}};
-                  }});
+  model->forces.push_back(CustomForce{
+      {Grip::on_beam(0, 1)}, [refuses](double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
+        if (*refuses) throw Refusal{};
+        return CustomForce::Response{Eigen::Matrix3Xd::Zero(3, r.cols()), {}, {}};
+      }});
   Simulation simulation(model, {}, twenty_steps());
   while (simulation.state().t < 0.1) simulation.advance();
   *refuses = true;
@@ -176,7 +175,7 @@ TEST(SimulationTest, WhatAForceThrowsEndsASearchForRest) {
   struct Refusal {};
   auto model = std::make_shared<BeamModel>(*swinging_cantilever());
   model->forces.push_back(
-      CustomForce{{CustomForce::Attachment::to_beam(0, 1)},
+      CustomForce{{Grip::on_beam(0, 1)},
                   [](double, const Eigen::Matrix3Xd&, const Eigen::Matrix3Xd&) -> CustomForce::Response {
                     throw Refusal{};
                   }});

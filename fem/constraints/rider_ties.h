@@ -9,32 +9,32 @@
 
 namespace nurbeam {
 
-/// Where the body of a sliding joint is: one constraint, or none where it has no coordinates of its own.
+/// Where the body of a rider is: one constraint, or none where it has no coordinates of its own.
 template <int D, class Add>
 void bind_body(int j, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
-  if (at.structure.beam_of(at.structure.joints[j]).rigid) return add(BodyOnGuide<D>(at, j));
-  const bool is_node = at.mesh.plan.modes[j] == JointMode::node;
+  if (at.structure.beam_of(at.structure.riders[j]).rigid) return add(BodyOnGuide<D>(at, j));
+  const bool is_node = at.mesh.plan.modes[j] == Carried::node;
   if constexpr (D == 3) {
-    if (at.structure.joints[j].is_offset()) {
+    if (at.structure.riders[j].is_offset()) {
       if (is_node) return add(BodyOnSection<FollowedNode>(at, drawn, j));
       return add(BodyOnSection<FollowedPoint>(at, drawn, j));
     }
   }
   if (!is_node) return add(BodyOnPoint<D>(at, drawn, j));
-  if (at.structure.joints[j].stands_apart()) add(BodyOnNode<D>(at, j));
+  if (at.structure.riders[j].stands_apart()) add(BodyOnNode<D>(at, j));
 }
 
-/// What sliding joints ask for as they are carried in a mesh.
+/// What riders ask for as they are carried in a mesh.
 template <int D>
-struct JointTies {
+struct RiderTies {
   /// They last less than the rest: they move over the mesh.
   static constexpr bool moves = true;
 
   template <class Add>
   static void bind(Binding<D>& binding, Add&& add) {
-    for (int j = 0; j < static_cast<int>(binding.at.structure.joints.size()); ++j) {
+    for (int j = 0; j < static_cast<int>(binding.at.structure.riders.size()); ++j) {
       binding.ties.push_back(binding.rows);
-      if (binding.at.mesh.plan.modes[j] != JointMode::free) bind_joint(j, binding, add);
+      if (binding.at.mesh.plan.modes[j] != Carried::free) bind_joint(j, binding, add);
     }
   }
 
@@ -42,17 +42,17 @@ struct JointTies {
   template <class Add>
   static void bind_joint(int j, const Binding<D>& binding, Add&& add) {
     const MeshedBeams<D>& at = binding.at;
-    const JointMode mode = at.mesh.plan.modes[j];
+    const Carried mode = at.mesh.plan.modes[j];
     bind_body<D>(j, at, binding.drawn, add);
-    const SlidingJoint& joint = at.structure.joints[j];
+    const Rider& rider = at.structure.riders[j];
     if constexpr (D == 3)
-      if (mode == JointMode::node && !joint.continuous_slope && at.structure.beam_of(joint).has_torsion())
+      if (mode == Carried::node && !rider.continuous_slope && at.structure.beam_of(rider).has_torsion())
         add(PassedRoll(at, j));
-    const int place = at.mesh.joints[j].place;
-    if (mode == JointMode::stopped || binding.holds(j) || at.mesh.plan.holds(j))
+    const int place = at.mesh.riders[j].place;
+    if (mode == Carried::stopped || binding.holds(j) || at.mesh.plan.holds(j))
       add(HeldPlace<D>(place, at.mesh.plan.places[j]));
-    else if (joint.motion)
-      add(HeldPlace<D>(place, *joint.motion));
+    else if (rider.motion)
+      add(HeldPlace<D>(place, *rider.motion));
   }
 };
 
