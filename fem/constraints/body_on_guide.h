@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/mesh/mesh_elements.h"
 
 namespace nurbeam {
@@ -20,6 +20,7 @@ class BodyOnGuide {
     dofs_.push_back(at.mesh.riders[rider].place);
   }
 
+  static constexpr ConstraintOffers offers{};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/mesh/mesh_elements.h"
 
 namespace nurbeam {
@@ -18,8 +18,8 @@ class BodyOnNode {
       for (int d = 0; d < D; ++d) dofs_.push_back(first + d);
   }
 
+  static constexpr ConstraintOffers offers{.linear = true, .body = true};
   static constexpr int rows = D;
-  static constexpr bool linear = true;  ///< no Hessian
   const std::vector<int>& dofs() const { return dofs_; }
   /// First coordinate of the body.
   int body() const { return dofs_[D]; }

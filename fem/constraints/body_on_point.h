@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/held_place.h"
 #include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
@@ -22,6 +22,7 @@ class BodyOnPoint {
     dofs_.push_back(at.mesh.riders[rider].place);
   }
 
+  static constexpr ConstraintOffers offers{.action = true};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
   /// What it does to the beam.

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "fem/constraints/body_on_point.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/followed_section.h"
 
 namespace nurbeam {
@@ -33,14 +34,16 @@ class BodyOnSection {
     }
   }
 
+  static constexpr ConstraintOffers offers{.curvature = true, .action = true, .body = true};
   static constexpr int rows = 3;
   const std::vector<int>& dofs() const { return dofs_; }
   /// First coordinate of the body.
   int body() const { return body_; }
 
   /// What it does to the beam, where the body is on a point.
-  PointAction action(const MeshedBeams<3>& at, const State& state, const Eigen::Vector3d& y) const
-      requires(std::is_same_v<Section, FollowedPoint>) {
+  std::optional<PointAction> action(const MeshedBeams<3>& at, const State& state,
+                                    const Eigen::Vector3d& y) const {
+    if constexpr (!on_point) return std::nullopt;
     PointAction action = point_->action(at, state, y);
     const auto x = section_.coordinates(at, state.q);
     action.couple = arm(section_.here(at, x).template triad<double>(x)).cross(action.force);

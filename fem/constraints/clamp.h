@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/directions_across.h"
 #include "fem/mesh/point_on_beam.h"
 
@@ -15,6 +15,7 @@ class HeldDirection {
         dofs_(point_.dofs(at)),
         across_(directions_across<D>(at.structure.beams[beam].curve.tangent(s))) {}
 
+  static constexpr ConstraintOffers offers{.couple = true};
   static constexpr int rows = D - 1;
   const std::vector<int>& dofs() const { return dofs_; }
 

@@ -15,14 +15,10 @@
 /// The lists of constraints: all that has to be said of a new one outside its own file.
 ///
 /// A description (Constraint: Support, ...) offers bind<D>(description, at, drawn, add), which adds the
-/// constraints that it means in a mesh. A constraint in a mesh offers `rows` (at most D), dofs() (global
+/// constraints that it means in a mesh. A constraint in a mesh has `rows` (at most D), dofs() (global
 /// coordinates, -1 for none, at most those of two elements), terms(at, state, y): ConstraintTerms<D> with the
-/// Hessian contracted with y where that is not null, and, if it has them, rate(t) and acceleration(t) (dg/dt,
-/// d2g/dt2 at fixed q), `linear` (no Hessian), and of its multipliers y force(y) on the beam where that is
-/// not -y, couple(at, state, y), action(at, state, y) on a point of a beam, on_body(body, state, y), what it
-/// gives to a body [N], and work(from, to, y_from, y_to), done between two states on one mesh [J]; body(),
-/// first coordinate of a body that follows what the other coordinates do; what it is for: the coordinate of a
-/// place(), a closed_stop(), a connector() with its length_and_force(state, y).
+/// Hessian contracted with y where that is not null, and says in `offers` (constraint_offers.h) which hooks
+/// it has besides; the lists below hold it to that.
 namespace nurbeam {
 
 /// In either dimension, and `Others` besides.
@@ -37,6 +33,15 @@ using BoundConstraint =
                        ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll,
                                       BodyOnSection<FollowedNode>, BodyOnSection<FollowedPoint>>,
                        ConstraintList<D>>;
+
+template <int D, class... C>
+consteval bool all_keep_constraint_offers(const std::variant<C...>*) {
+  return (keeps_constraint_offers<C, D>() && ...);
+}
+static_assert(all_keep_constraint_offers<2>(static_cast<BoundConstraint<2>*>(nullptr)),
+              "a constraint offers what it has not, or the reverse");
+static_assert(all_keep_constraint_offers<3>(static_cast<BoundConstraint<3>*>(nullptr)),
+              "a constraint offers what it has not, or the reverse");
 
 /// What the parts of a structure ask for by themselves, in the order of the rows, after those of
 /// descriptions: each offers bind(binding, add), and `moves` where its constraints do over the mesh. As

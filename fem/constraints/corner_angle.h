@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/held_angle.h"
 #include "fem/constraints/joined_sections.h"
 #include "fem/mesh/binding.h"
@@ -23,6 +23,7 @@ class CornerAngle {
     for (std::size_t b = 0; b < binding.at.mesh.nodes.size(); ++b) bind_corners(binding.at, b, add);
   }
 
+  static constexpr ConstraintOffers offers{};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return dofs_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/directions_across.h"
 #include "fem/mesh/point_on_beam.h"
 #include "fem/structure/support.h"
@@ -21,8 +21,8 @@ class GuidedPlace {
         drawn_(at.structure.beams[support.beam].curve.position(support.s).template head<D>()),
         motion_(support.motion ? &*support.motion : nullptr) {}
 
+  static constexpr ConstraintOffers offers{.linear = true, .rates = true, .force = true, .work = true};
   static constexpr int rows = D - 1;
-  static constexpr bool linear = true;  ///< at a node
   const std::vector<int>& dofs() const { return dofs_; }
   /// On the beam [N], for its multipliers.
   Eigen::Vector3d force(const Eigen::Ref<const Eigen::VectorXd>& y) const {

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/held_angle.h"
 #include "fem/constraints/node_section.h"
 
@@ -19,6 +19,7 @@ class HeldAxis {
     set(axis);
   }
 
+  static constexpr ConstraintOffers offers{.couple = true};
   static constexpr int rows = 2;
   const std::vector<int>& dofs() const { return dofs_; }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/mesh/mesh_elements.h"
 
 namespace nurbeam {
@@ -14,8 +14,8 @@ class HeldPlace {
   /// `motion` must outlive the constraint.
   HeldPlace(int dof, const PlaceMotion& motion) : dofs_{dof}, motion_(&motion) {}
 
+  static constexpr ConstraintOffers offers{.linear = true, .rates = true, .work = true, .place = true};
   static constexpr int rows = 1;
-  static constexpr bool linear = true;  ///< no Hessian
   const std::vector<int>& dofs() const { return dofs_; }
 
   ConstraintTerms<D> terms(const MeshedBeams<D>&, const State& state,

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/mesh/drawn_coordinates.h"
 #include "fem/mesh/mesh_elements.h"
 #include "fem/structure/held_body.h"
@@ -23,8 +23,8 @@ class HeldPositionOfBody {
     for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
   }
 
+  static constexpr ConstraintOffers offers{.linear = true, .on_body = true};
   static constexpr int rows = D;
-  static constexpr bool linear = true;  ///< no Hessian
   const std::vector<int>& dofs() const { return dofs_; }
 
   ConstraintTerms<D> terms(const MeshedBeams<D>&, const State& state,

@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/node_section.h"
 
 namespace nurbeam {
@@ -10,8 +10,8 @@ class ClampedRoll {
  public:
   explicit ClampedRoll(const NodeSection& node) : tangent_(node.drawn.col(2)), dofs_{node.dofs[3]} {}
 
+  static constexpr ConstraintOffers offers{.linear = true, .couple = true};
   static constexpr int rows = 1;
-  static constexpr bool linear = true;  ///< no Hessian
   const std::vector<int>& dofs() const { return dofs_; }
 
   ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
@@ -37,6 +37,7 @@ class ForkedRoll {
  public:
   explicit ForkedRoll(const NodeSection& node) : node_(node), dofs_(node.dofs.begin(), node.dofs.end()) {}
 
+  static constexpr ConstraintOffers offers{.couple = true};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return dofs_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/held_axis.h"
 #include "fem/constraints/joined_sections.h"
 #include "fem/constraints/joined_slopes.h"
@@ -20,6 +20,7 @@ class JoinedPoints {
     distance_ = distance.head<D>();
   }
 
+  static constexpr ConstraintOffers offers{};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return points_.dofs; }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/node_section.h"
 
 namespace nurbeam {
@@ -17,6 +17,7 @@ class JoinedSections {
     for (const NodeSection* node : {&a, &b}) dofs_.insert(dofs_.end(), node->dofs.begin(), node->dofs.end());
   }
 
+  static constexpr ConstraintOffers offers{.couple = true};
   static constexpr int rows = 3;
   const std::vector<int>& dofs() const { return dofs_; }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
 
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/held_angle.h"
 #include "fem/mesh/point_on_beam.h"
 
@@ -27,6 +27,7 @@ class JoinedSlopes {
  public:
   JoinedSlopes(PointPair<D> points, HeldAngle<D> angle) : points_(std::move(points)), angle_(angle) {}
 
+  static constexpr ConstraintOffers offers{.couple = true};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return points_.dofs; }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/mesh/binding.h"
 #include "fem/mesh/stop_distance.h"
 
@@ -26,6 +26,7 @@ class KeptContact {
   /// In the model.
   int closed_stop() const { return number_; }
 
+  static constexpr ConstraintOffers offers{.on_body = true, .stop = true};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return distance_.dofs(); }
   /// What it gives to a body [N].

@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/mesh/binding.h"
 #include "fem/mesh/connector_axis.h"
 
@@ -22,6 +22,7 @@ class KeptLength {
       if (connectors[i].type == ConnectorType::rod) add(KeptLength(i, binding.at));
   }
 
+  static constexpr ConstraintOffers offers{.on_body = true, .connector = true};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return axis_.dofs(); }
   /// In the model.

@@ -1,5 +1,5 @@
 #pragma once
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/node_section.h"
 
 namespace nurbeam {
@@ -13,6 +13,7 @@ class PassedRoll {
   PassedRoll(const MeshedBeams<3>& at, int rider)
       : PassedRoll(sides(at, at.structure.riders[rider].beam, at.mesh.riders[rider].node)) {}
 
+  static constexpr ConstraintOffers offers{};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return dofs_; }
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "fem/constraints/clamp.h"
-#include "fem/constraints/constraint_terms.h"
+#include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/guided_place.h"
 #include "fem/constraints/held_axis.h"
 #include "fem/constraints/held_roll.h"
@@ -23,6 +23,7 @@ class HeldPosition {
         drawn_(at.structure.beams[beam].curve.position(s).template head<D>()),
         motion_(motion) {}
 
+  static constexpr ConstraintOffers offers{.rates = true, .work = true};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
 

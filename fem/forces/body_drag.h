@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/binding.h"
 
 namespace nurbeam {
@@ -10,6 +11,7 @@ namespace nurbeam {
 template <int D>
 class BodyDrag {
  public:
+  static constexpr ForceOffers offers{.force = true, .work = true, .loss = true, .on_body = true};
   using Vector = Eigen::Matrix<double, D, 1>;
 
   BodyDrag(const MeshedBeams<D>& at, int body);

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/binding.h"
 #include "fem/mesh/stop_distance.h"
 
@@ -14,6 +15,8 @@ namespace nurbeam {
 template <int D>
 class BufferForce {
  public:
+  static constexpr ForceOffers offers{
+      .force = true, .energy = true, .loss = true, .memory = true, .on_body = true, .damper = true};
   BufferForce(const MeshedBeams<D>& at, int stop);
 
   /// Of all buffers whose bodies are on their beams.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/point_action.h"
 #include "fem/mesh/point_on_beam.h"
 #include "fem/structure/grip.h"
@@ -41,6 +42,7 @@ struct CustomForce {
 template <int D>
 class BoundCustomForce {
  public:
+  static constexpr ForceOffers offers{.force = true, .work = true, .actions = true};
   /// `force` must outlive it.
   BoundCustomForce(const CustomForce& force, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn);
 

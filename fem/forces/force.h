@@ -18,22 +18,10 @@
 
 /// The lists of forces: all that has to be said of a new one outside its own file.
 ///
-/// A force in a mesh may offer: add_force(at, state, dynamics) (dynamics is inertia less forces) with
-/// add_tangent(at, state, weights, sink), which hands matrices to sink.element(index, K) or, in its own
-/// dofs(), to sink.own(K); per_length(beam, t), which the elements carry; add_energy(at, state, sum);
-/// momentum(state); add_momentum_of(velocity, p), where it is at a place s() of a beam(); spin(at, state), of
-/// the roll of the body of a rider(), with add_momentum; work(at, from, to), but for weight, between two
-/// states on one mesh [J]; loss(at, from, to), of energy between them [J], where it is no rate in add_energy;
-/// commit(at, state, memory), its part of State::memory after a step; add_actions(at, state, actions), what
-/// it does to points of beams; on_body(at, body, state), what it gives to a body [N]; on_element(e, state),
-/// the generalised force on an element of its `beam` with torsion, with per_length(state) about the tangent;
-/// `depends_on_multipliers`; `has_constant_inertia`, where it is the same in all states and nothing of it
-/// changes with velocities; `is_body`, where it is no more than a body's inertia and weight; is_damper(at),
-/// whether it ends transients; what it is of: a sliding_joint() with its friction(at, state), a connector()
-/// with its length_and_force(at, state). State::load scales all loads. A description may be `permanent`: part
-/// of the state that buckling is about, not of the loads that it multiplies. One that is not itself such a
-/// force names its Bound<D>, made of (description, at, drawn); it may ask for nodes with
-/// for_each_node(visit).
+/// A force in a mesh says in `offers` (force_offers.h) which hooks it has; the lists below hold it to that.
+/// State::load scales all loads. A description may be `permanent`: part of the state that buckling is about,
+/// not of the loads that it multiplies. One that is not itself such a force names its Bound<D>, made of
+/// (description, at, drawn); it may ask for nodes with for_each_node(visit).
 namespace nurbeam {
 
 using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;
@@ -47,6 +35,15 @@ template <int D>
 using BoundForce =
     std::conditional_t<D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll>,
                        ForceList<D>>;
+
+template <int D, class... F>
+consteval bool all_keep_offers(const std::variant<F...>*) {
+  return (keeps_offers<F, D>() && ...);
+}
+static_assert(all_keep_offers<2>(static_cast<BoundForce<2>*>(nullptr)),
+              "a force offers what it has not, or the reverse");
+static_assert(all_keep_offers<3>(static_cast<BoundForce<3>*>(nullptr)),
+              "a force offers what it has not, or the reverse");
 
 /// What the parts of a structure bring by themselves, in the order in which forces are added up, before those
 /// of descriptions: each offers bind(binding, add).

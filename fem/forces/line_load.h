@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/mesh_elements.h"
 #include "fem/time_table.h"
 
@@ -8,7 +9,7 @@ namespace nurbeam {
 
 /// A dead load along a whole beam.
 struct LineLoad {
-  static constexpr bool has_constant_inertia = true;
+  static constexpr ForceOffers offers{.per_length = true, .work = true, .has_constant_inertia = true};
 
   int beam = 0;
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N/m] of reference arc length

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/mesh_elements.h"
 #include "fem/time_table.h"
 
@@ -8,6 +9,7 @@ namespace nurbeam {
 
 /// A torque about the present tangent along a whole beam with torsion.
 struct LineTorque {
+  static constexpr ForceOffers offers{.force = true, .work = true, .on_element = true};
   int beam = 0;
   double value = 0;     ///< [N m/m] of reference arc length
   TimeTable time = {};  ///< factor
@@ -27,6 +29,11 @@ struct LineTorque {
   }
   /// Done between two states on one mesh [J]: the mean power over the time.
   double work(const MeshedBeams<3>& at, const State& from, const State& to) const;
+  // In the plane there is no torsion.
+  void add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const {}
+  template <class Sink>
+  void add_tangent(const MeshedBeams<2>&, const State&, const TangentWeights&, Sink&&) const {}
+  double work(const MeshedBeams<2>&, const State&, const State&) const { return 0; }
 
  private:
   TwistLayout::Matrix gradient(const MeshElement<3>& e, const State& state) const;

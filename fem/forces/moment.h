@@ -1,4 +1,5 @@
 #pragma once
+#include "fem/forces/force_offers.h"
 #include "fem/forces/point_load.h"
 
 namespace nurbeam {
@@ -9,7 +10,8 @@ TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs);
 
 /// A moment on a section [N m]; on a beam without torsion its part along the beam does nothing.
 struct Moment : LoadAtPlace {
-  static constexpr bool has_constant_inertia = true;
+  static constexpr ForceOffers offers{
+      .force = true, .work = true, .actions = true, .has_constant_inertia = true};
   static constexpr OnSection on_section = OnSection::moment;  ///< of a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;

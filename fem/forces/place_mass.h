@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/mesh_elements.h"
 
 namespace nurbeam {
@@ -31,6 +32,8 @@ struct PlaceMass {
 template <int D>
 class BoundPlaceMass {
  public:
+  static constexpr ForceOffers offers{
+      .force = true, .energy = true, .momentum = true, .momentum_at_place = true};
   using Vector = Eigen::Matrix<double, D, 1>;
 
   /// Throws std::invalid_argument where the beam has no node there.

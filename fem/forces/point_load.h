@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "fem/forces/force_offers.h"
 #include "fem/forces/section_load.h"
 #include "fem/forces/turned_vector.h"
 #include "fem/mesh/point_action.h"
@@ -53,7 +54,8 @@ struct LoadTangent {
 
 /// A force on a material point [N].
 struct PointLoad : LoadAtPlace {
-  static constexpr bool has_constant_inertia = true;
+  static constexpr ForceOffers offers{
+      .force = true, .work = true, .actions = true, .has_constant_inertia = true};
   static constexpr OnSection on_section = OnSection::force;  ///< of a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;

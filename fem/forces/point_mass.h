@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/binding.h"
 
 namespace nurbeam {
@@ -10,8 +11,8 @@ namespace nurbeam {
 template <int D>
 class PointMass {
  public:
-  static constexpr bool has_constant_inertia = true;
-  static constexpr bool is_body = true;
+  static constexpr ForceOffers offers{
+      .force = true, .energy = true, .momentum = true, .has_constant_inertia = true, .is_body = true};
   using Vector = Eigen::Matrix<double, D, 1>;
 
   PointMass(const MeshedBeams<D>& at, int body) : mass_(at.structure.bodies[body].mass) {

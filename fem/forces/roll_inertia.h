@@ -3,6 +3,7 @@
 
 #include "fem/constraints/followed_section.h"
 #include "fem/forces/energy.h"
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/binding.h"
 #include "fem/mesh/point_action.h"
 
@@ -16,13 +17,14 @@ namespace nurbeam {
 template <class Section>
 class RollInertia {
  public:
+  static constexpr ForceOffers offers{.force = true, .energy = true, .roll = true, .actions = true};
   RollInertia(const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, int rider)
-      : joint_(rider),
+      : rider_(rider),
         inertia_(at.structure.body_of(at.structure.riders[rider]).roll_inertia),
         section_(at, drawn, rider),
         dofs_(section_.dofs().begin(), section_.dofs().end()) {}
 
-  int rider() const { return joint_; }
+  int rider() const { return rider_; }
   const std::vector<int>& dofs() const { return dofs_; }
 
   void add_force(const MeshedBeams<3>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const {
@@ -67,12 +69,13 @@ class RollInertia {
     add(here.template force<double>(x, Vector3<double>(inertia_ * spin * t)), p);
   }
   /// Where the body is on a point.
-  void add_actions(const MeshedBeams<3>& at, const State& state, std::vector<PointAction>& actions) const
-      requires(std::is_same_v<Section, FollowedPoint>) {
-    const Motion<double> x = motion(at, state);
-    actions.push_back({.element = section_.element(),
-                       .s = x.q[size - 1],
-                       .couple = -moment<double>(section_.here(at, x.q), x)});
+  void add_actions(const MeshedBeams<3>& at, const State& state, std::vector<PointAction>& actions) const {
+    if constexpr (std::is_same_v<Section, FollowedPoint>) {
+      const Motion<double> x = motion(at, state);
+      actions.push_back({.element = section_.element(),
+                         .s = x.q[size - 1],
+                         .couple = -moment<double>(section_.here(at, x.q), x)});
+    }
   }
 
  private:
@@ -107,7 +110,7 @@ class RollInertia {
       if (dofs_[i] >= 0) to[dofs_[i]] += f[i];
   }
 
-  int joint_;
+  int rider_;
   double inertia_;
   Section section_;
   std::vector<int> dofs_;
@@ -116,6 +119,7 @@ class RollInertia {
 /// That of a body that has left its beam: it rolls on as it did.
 class FreeRoll {
  public:
+  static constexpr ForceOffers offers{.energy = true};
   FreeRoll(double inertia, double spin) : energy_(inertia * spin * spin / 2) {}
   void add_energy(const MeshedBeams<3>&, const State&, SystemEnergy& sum) const { sum.kinetic += energy_; }
 

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
+#include "fem/forces/force_offers.h"
 #include "fem/forces/friction_law.h"
 #include "fem/mesh/binding.h"
 
@@ -12,6 +13,12 @@ namespace nurbeam {
 template <int D>
 class SlidingFriction {
  public:
+  static constexpr ForceOffers offers{.force = true,
+                                      .energy = true,
+                                      .loss = true,
+                                      .memory = true,
+                                      .friction = true,
+                                      .depends_on_multipliers = true};
   /// `first_multiplier`: of the constraint that ties the body to the beam, whose multipliers are the beam's
   /// force on it.
   SlidingFriction(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int rider, int first_multiplier);
@@ -28,9 +35,7 @@ class SlidingFriction {
     }
   }
 
-  /// The multipliers are the normal force: the tangent has no symmetry in them.
-  static constexpr bool depends_on_multipliers = true;
-  int sliding_joint() const { return joint_; }
+  int rider() const { return rider_; }
   /// Those that its slopes have, its place, and its multipliers as coordinates behind all others.
   const std::vector<int>& dofs() const { return dofs_; }
 
@@ -65,7 +70,7 @@ class SlidingFriction {
   }
 
   FrictionOfBody body_;
-  int joint_, multiplier_, place_;
+  int rider_, multiplier_, place_;
   Carrier carrier_;
   int element_ = -1, segment_ = -1;         // of a point, of a guide
   int slope_left_ = -1, slope_right_ = -1;  // of a node

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
+#include "fem/forces/force_offers.h"
 #include "fem/mesh/binding.h"
 #include "fem/mesh/connector_axis.h"
 
@@ -24,6 +25,13 @@ struct ConnectorPull {
 template <int D>
 class Spring {
  public:
+  static constexpr ForceOffers offers{.force = true,
+                                      .energy = true,
+                                      .loss = true,
+                                      .memory = true,
+                                      .on_body = true,
+                                      .damper = true,
+                                      .connector = true};
   Spring(int connector, const MeshedBeams<D>& at)
       : number_(connector), axis_(at.structure.connectors[connector], at.structure, at.mesh) {}
 

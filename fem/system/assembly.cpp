@@ -119,7 +119,7 @@ typename Assembly<D>::Vector Assembly<D>::line_load(int beam, const State& state
   for (const BoundForce<D>& force : forces_)
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.per_length(beam, state.t); })
+          if constexpr (offers_of<decltype(f)>.per_length)
             load += state.load * f.per_length(beam, state.t).template head<D>();
         },
         force);
@@ -177,7 +177,7 @@ std::vector<PointAction> Assembly<D>::actions(const State& state) const {
         [&](const auto& f) {
           if constexpr (requires { f.template add_actions<D>(at, state, actions); })
             f.template add_actions<D>(at, state, actions);
-          else if constexpr (requires { f.add_actions(at, state, actions); })
+          else if constexpr (offers_of<decltype(f)>.actions)
             f.add_actions(at, state, actions);
         },
         force);
@@ -185,7 +185,9 @@ std::vector<PointAction> Assembly<D>::actions(const State& state) const {
     std::visit(
         [&](const auto& c) {
           const auto y = [&] { return state.lambda.segment<D>(constraint_blocks_[i].row); };
-          if constexpr (requires { c.action(at, state, y()); }) actions.push_back(c.action(at, state, y()));
+          if constexpr (offers_of<decltype(c)>.action)
+            if (const std::optional<PointAction> action = c.action(at, state, y()))
+              actions.push_back(*action);
         },
         constraints_[i]);
   return actions;
@@ -203,9 +205,9 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> Assembly<D>::reaction(int i, const S
     std::visit(
         [&](const auto& constraint) {
           const auto y = multipliers.segment(row, constraint.rows);
-          if constexpr (requires { constraint.couple(at, state, y); })
+          if constexpr (offers_of<decltype(constraint)>.couple)
             couple += constraint.couple(at, state, y);
-          else if constexpr (requires { constraint.force(y); })
+          else if constexpr (offers_of<decltype(constraint)>.force)
             force += constraint.force(y);
           else
             force.head(constraint.rows) -= y;
@@ -222,14 +224,12 @@ typename Assembly<D>::Vector Assembly<D>::force_on_body(int body, const State& s
   for (const BoundForce<D>& force : forces_)
     std::visit(
         [&](const auto& f) {
-          if constexpr (
-              requires { f.on_body(at, body, state); })
-            sum += f.on_body(at, body, state);
+          if constexpr (offers_of<decltype(f)>.on_body) sum += f.on_body(at, body, state);
         },
         force);
   for_each_constraint([&](const auto& c, const Rows& rows) {
     const auto y = [&] { return state.lambda.segment(rows.first, rows.count); };
-    if constexpr (requires { c.on_body(body, state, y()); }) sum += c.on_body(body, state, y());
+    if constexpr (offers_of<decltype(c)>.on_body) sum += c.on_body(body, state, y());
   });
   return sum;
 }
@@ -240,7 +240,7 @@ void Assembly<D>::carry_bodies(State& state) const {
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     std::visit(
         [&](const auto& c) {
-          if constexpr (requires { c.body(); }) {
+          if constexpr (offers_of<decltype(c)>.body) {
             const ConstraintTerms<D> terms = c.terms(at, state, nullptr);
             Vector rate = Vector::Zero();
             for (std::size_t k = 0; k < c.dofs().size(); ++k)
@@ -287,7 +287,7 @@ void Assembly<D>::add_forces_and_constraints(const State& state, Eigen::Ref<Eige
         [&](const auto& f) {
           if constexpr (requires { f.template add_force<D>(at, state, dynamics); })
             f.template add_force<D>(at, state, dynamics);
-          else if constexpr (requires { f.add_force(at, state, dynamics); })
+          else if constexpr (offers_of<decltype(f)>.force)
             f.add_force(at, state, dynamics);
         },
         force);
@@ -343,7 +343,7 @@ Eigen::VectorXd Assembly<D>::constraint_rate(const State& state) const {
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     std::visit(
         [&](const auto& c) {
-          if constexpr (requires { c.rate(state.t); })
+          if constexpr (offers_of<decltype(c)>.rates)
             rate.segment(constraint_blocks_[i].row, c.rows) = c.rate(state.t);
         },
         constraints_[i]);
@@ -370,12 +370,12 @@ Eigen::VectorXd Assembly<D>::constraint_curvature(const State& state) const {
   const MeshedBeams<D> at = beams();
   Eigen::VectorXd curvature = Eigen::VectorXd::Zero(constraint_count_);
   const auto add = [&](const ConstraintBlock& block, const auto& c) {
-    if constexpr (!is_linear<std::decay_t<decltype(c)>>()) {
+    if constexpr (!offers_of<decltype(c)>.linear) {
       Eigen::Matrix<double, ConstraintTerms<D>::size, 1> v =
           Eigen::Matrix<double, ConstraintTerms<D>::size, 1>::Zero();
       for (std::size_t k = 0; k < block.block.dofs.size(); ++k)
         if (block.block.dofs[k] >= 0) v[static_cast<Eigen::Index>(k)] = state.v[block.block.dofs[k]];
-      if constexpr (requires { c.curvature(at, state, v); })
+      if constexpr (offers_of<decltype(c)>.curvature)
         curvature.segment(block.row, c.rows) = c.curvature(at, state, v);
       else
         for (int r = 0; r < c.rows; ++r) {
@@ -383,7 +383,7 @@ Eigen::VectorXd Assembly<D>::constraint_curvature(const State& state) const {
           curvature[block.row + r] = v.dot(c.terms(at, state, &unit).hessian * v);
         }
     }
-    if constexpr (requires { c.acceleration(state.t); })
+    if constexpr (offers_of<decltype(c)>.rates)
       curvature.segment(block.row, c.rows) += c.acceleration(state.t);
   };
   for (std::size_t i = 0; i < constraints_.size(); ++i)
@@ -445,7 +445,7 @@ Eigen::VectorXd Assembly<D>::committed(const State& state) const {
   for (const BoundForce<D>& force : forces_)
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.commit(at, state, memory); }) f.commit(at, state, memory);
+          if constexpr (offers_of<decltype(f)>.memory) f.commit(at, state, memory);
         },
         force);
   return memory;
@@ -456,11 +456,7 @@ bool Assembly<D>::forces_depend_on_multipliers() const {
   return std::any_of(
       forces_.begin(), forces_.end(),
       [](const BoundForce<D>& force) {
-        return std::visit(
-            [](const auto& f) {
-              return requires { f.depends_on_multipliers; };
-            },
-            force);
+        return std::visit([](const auto& f) { return offers_of<decltype(f)>.depends_on_multipliers; }, force);
       });
 }
 

@@ -19,12 +19,6 @@
 
 namespace nurbeam {
 
-/// Whether a constraint's gradient is the same in all states.
-template <class Constraint>
-constexpr bool is_linear() {
-  return requires { requires Constraint::linear; };
-}
-
 /// Elements, constraints and forces of a model in one mesh, behind SecondOrderSystem: the only loop over
 /// elements.
 ///

@@ -48,9 +48,7 @@ bool Assembly<D>::differs_in_elements(const Assembly& other, const State& own, c
            std::none_of(model.riders.begin(), model.riders.end(), moves);
   };
   const auto are_of_bodies = [](const std::vector<BoundForce<D>>& forces) {
-    const auto is_body = [](const auto& force) {
-      return requires { force.is_body; };
-    };
+    const auto is_body = [](const auto& force) { return offers_of<decltype(force)>.is_body; };
     return std::all_of(forces.begin(), forces.end(),
                        [&](const BoundForce<D>& force) { return std::visit(is_body, force); });
   };
@@ -82,7 +80,7 @@ Eigen::VectorXd Assembly<D>::sides(const State& state) const {
   for (const BoundForce<D>& force : forces_)
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.carries_one_sign(at); }) {
+          if constexpr (offers_of<decltype(f)>.connector) {
             if (!f.carries_one_sign(at)) return;
             has_kinks = true;
             sides[f.side(at)] = f.carries(at, state) ? 1 : 0;

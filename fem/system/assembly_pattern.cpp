@@ -251,8 +251,7 @@ void Assembly<D>::choose_moving_part() {
     mark(twist_dofs(i));
   }
   for (const int i : over_mesh_) {
-    if (std::visit([](const auto& c) { return is_linear<std::decay_t<decltype(c)>>(); }, constraints_[i]))
-      continue;
+    if (std::visit([](const auto& c) { return offers_of<decltype(c)>.linear; }, constraints_[i])) continue;
     moving_.constraints.push_back(i);
     moving_.constraint_blocks.push_back(constraint_blocks_[i]);
     mark(constraint_blocks_[i].block.dofs);

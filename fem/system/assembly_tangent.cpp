@@ -96,8 +96,9 @@ void Assembly<D>::add_batch_tangents(int beam, const State& state, const Tangent
                                      const Wanted& wanted, double* values) const {
   const auto& batches = walks_[beam].batches;
   const auto& batched = walks_[beam].batched;
-  if (batches.empty()) return;                  // a guide has no elements
-  if (w.mass == 0 && w.stiffness == 0) return;  // they are not damped
+  if (batches.empty()) return;  // a guide has no elements
+  const bool damped = w.damping != 0 && model_->beams[beam].properties.is_damped();
+  if (w.mass == 0 && w.stiffness == 0 && !damped) return;
   const double strain = free_strain_of(beam, state);
   for_each_batch(walks_[beam], [&](int i) {
     const int* begin = batched.data() + i * ElementBatch<D>::lanes;
@@ -123,7 +124,7 @@ void Assembly<D>::add_constraint_tangent(int i, const State& state, const Tangen
         typename ConstraintTerms<D>::Multipliers y = ConstraintTerms<D>::Multipliers::Zero();
         y.head(c.rows) = state.lambda.segment(block.row, c.rows);
         const ConstraintTerms<D> terms = c.terms(at, state, &y);
-        if constexpr (!is_linear<std::decay_t<decltype(c)>>())
+        if constexpr (!offers_of<decltype(c)>.linear)
           if (w.stiffness != 0) scatter(block.block.runs, w.stiffness * terms.hessian, values);
         for (std::size_t k = 0, v = 0; k < block.block.dofs.size(); ++k)
           for (int r = 0; r < c.rows; ++r, ++v)
@@ -149,10 +150,7 @@ void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, cons
       if (moving == Moving::left_out && !elements_[i].element.fixed()) return;
       if (wanted(i)) add_element_tangent(i, state, load, w, element_runs_[i], twist_runs_[i], values);
     };
-    if (model_->beams[b].properties.is_damped())
-      std::for_each(walks_[b].batched.begin(), walks_[b].batched.end(), add_one);
-    else
-      add_batch_tangents(b, state, w, wanted, values);
+    add_batch_tangents(b, state, w, wanted, values);
     std::for_each(walks_[b].others.begin(), walks_[b].others.end(), add_one);
   }
   for (std::size_t i = 0; i < forces_.size() && !constraints_only; ++i) {
@@ -161,7 +159,7 @@ void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, cons
         [&](const auto& f) {
           if constexpr (requires { f.template add_tangent<D>(at, state, w, sink); })
             f.template add_tangent<D>(at, state, w, sink);
-          else if constexpr (requires { f.add_tangent(at, state, w, sink); })
+          else if constexpr (offers_of<decltype(f)>.force)
             f.add_tangent(at, state, w, sink);
         },
         forces_[i]);
@@ -242,9 +240,7 @@ void Assembly<D>::moving_tangent(const State& state, const TangentWeights& w, Ei
 
 template <int D>
 bool Assembly<D>::has_constant_inertia() const {
-  const auto is_constant = [](const auto& force) {
-    return requires { force.has_constant_inertia; };
-  };
+  const auto is_constant = [](const auto& force) { return offers_of<decltype(force)>.has_constant_inertia; };
   return std::all_of(elements_.begin(), elements_.end(),
                      [](const MeshElement<D>& e) {
                        return e.element.fixed() && !e.twist && !e.element.properties().is_damped();

@@ -126,7 +126,7 @@ void for_each_roll(const BeamSystem& system, Visit&& visit) {
   for (const BoundForce<3>& force : assembly->forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.rider(); }) visit(f, assembly->beams());
+          if constexpr (offers_of<decltype(f)>.roll) visit(f, assembly->beams());
         },
         force);
 }
@@ -188,7 +188,7 @@ void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
   for (const BoundForce<D>& force : own.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.beam(); })
+          if constexpr (offers_of<decltype(f)>.momentum_at_place)
             f.add_momentum_of(material_point(from, state, f.beam(), f.s()).velocity, kept_);
         },
         force);

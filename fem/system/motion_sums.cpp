@@ -32,7 +32,7 @@ void add_force_energies(const Assembly<D>& a, const State& state, SystemEnergy& 
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (requires { f.add_energy(at, state, sum); }) f.add_energy(at, state, sum);
+          if constexpr (offers_of<decltype(f)>.energy) f.add_energy(at, state, sum);
         },
         force);
 }
@@ -68,9 +68,7 @@ void add_force_momenta(const Assembly<D>& a, const State& state, Eigen::Matrix<d
   for (const BoundForce<D>& force : a.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (
-              requires { f.momentum(state); })
-            sum += f.momentum(state);
+          if constexpr (offers_of<decltype(f)>.momentum) sum += f.momentum(state);
         },
         force);
 }

@@ -38,7 +38,7 @@ double load_work_of(const Assembly<D>& a, const State& from, const State& to) {
         [&](const auto& f) {
           if constexpr (requires { f.template work<D>(at, from, to); })
             sum += f.template work<D>(at, from, to);
-          else if constexpr (requires { f.work(at, from, to); })
+          else if constexpr (offers_of<decltype(f)>.work)
             sum += f.work(at, from, to);
         },
         force);
@@ -50,7 +50,7 @@ double motion_work_of(const Assembly<D>& a, const State& from, const State& to) 
   double sum = 0;
   a.for_each_constraint([&](const auto& c, const auto& rows) {
     const auto y = [&](const State& state) { return state.lambda.segment(rows.first, rows.count); };
-    if constexpr (requires { c.work(from, to, y(from), y(to)); }) sum += c.work(from, to, y(from), y(to));
+    if constexpr (offers_of<decltype(c)>.work) sum += c.work(from, to, y(from), y(to));
   });
   return sum;
 }
@@ -79,9 +79,7 @@ double lost_energy(const BeamSystem& system, const State& from, const State& to)
         for (const auto& force : a.forces())
           std::visit(
               [&](const auto& f) {
-                if constexpr (
-                    requires { f.loss(a.beams(), from, to); })
-                  sum += f.loss(a.beams(), from, to);
+                if constexpr (offers_of<decltype(f)>.loss) sum += f.loss(a.beams(), from, to);
               },
               force);
         return sum;
@@ -95,8 +93,8 @@ std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const St
     for (const auto& force : a.forces())
       std::visit(
           [&](const auto& f) {
-            if constexpr (requires { f.sliding_joint(); })
-              if (f.sliding_joint() == rider) found = f.friction(a.beams(), state);
+            if constexpr (offers_of<decltype(f)>.friction)
+              if (f.rider() == rider) found = f.friction(a.beams(), state);
           },
           force);
   });
@@ -124,7 +122,7 @@ std::optional<int> row_of_place(const BeamSystem& system, int rider) {
   const int place = system.mesh().riders[rider].place;
   with_assembly(system, [&](const auto& a) {
     a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (requires { c.place(); })
+      if constexpr (offers_of<decltype(c)>.place)
         if (c.place() == place) found = rows.first;
     });
   });
@@ -158,12 +156,12 @@ std::pair<double, double> length_and_force(const BeamSystem& system, const State
     for (const auto& force : a.forces())
       std::visit(
           [&](const auto& f) {
-            if constexpr (requires { f.connector(); })
+            if constexpr (offers_of<decltype(f)>.connector)
               if (f.connector() == connector) found = f.length_and_force(a.beams(), state);
           },
           force);
     a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (requires { c.connector(); })
+      if constexpr (offers_of<decltype(c)>.connector)
         if (c.connector() == connector)
           found = c.length_and_force(state, state.lambda.segment(rows.first, rows.count));
     });
@@ -175,7 +173,7 @@ std::optional<int> row_of_rod(const BeamSystem& system, int connector) {
   std::optional<int> found;
   with_assembly(system, [&](const auto& a) {
     a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (requires { c.connector(); })
+      if constexpr (offers_of<decltype(c)>.connector)
         if (c.connector() == connector) found = rows.first;
     });
   });
@@ -203,7 +201,7 @@ double contact_force(const BeamSystem& system, const State& state, int stop) {
   double force = 0;
   with_assembly(system, [&](const auto& a) {
     a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (requires { c.closed_stop(); })
+      if constexpr (offers_of<decltype(c)>.stop)
         if (c.closed_stop() == stop) force = -state.lambda[rows.first];
     });
   });

@@ -85,7 +85,7 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
       for (const BoundForce<3>& force : a.forces())
         std::visit(
             [&](const auto& f) {
-              if constexpr (requires { f.on_element(e, state); })
+              if constexpr (offers_of<decltype(f)>.on_element)
                 if (f.beam == e.span->beam) {
                   on.add(-f.on_element(e, state));
                   torque += f.per_length(state);

@@ -26,9 +26,7 @@ bool has_dampers(const BeamSystem& system) {
             [&](const auto& force) {
               return std::visit(
                   [&](const auto& f) {
-                    if constexpr (
-                        requires { f.is_damper(a.beams()); })
-                      return f.is_damper(a.beams());
+                    if constexpr (offers_of<decltype(f)>.damper) return f.is_damper(a.beams());
                     return false;
                   },
                   force);

@@ -1,0 +1,89 @@
+#pragma once
+#include <optional>
+#include <utility>
+
+#include "fem/constraints/constraint_terms.h"
+#include "fem/mesh/mesh_elements.h"
+#include "fem/mesh/point_action.h"
+#include "fem/structure/hook_names.h"
+
+namespace nurbeam {
+
+/// What a constraint in a mesh offers besides rows, dofs() and terms(at, state, y), each by the function in
+/// brackets.
+struct ConstraintOffers {
+  bool linear = false;     ///< it has no Hessian
+  bool rates = false;      ///< (rate(t), acceleration(t)) dg/dt and d2g/dt2 at fixed q
+  bool curvature = false;  ///< (curvature(at, state, v)) v . d2g/dq2 v, cheaper than by the Hessian
+  bool force = false;      ///< (force(y)) of its multipliers on the beam, where that is not -y
+  bool couple = false;     ///< (couple(at, state, y)) on the beam, in place of a force
+  bool action = false;     ///< (action(at, state, y)) on a point of a beam, if there is one
+  bool on_body = false;    ///< (on_body(body, state, y)) what it gives to a body [N]
+  bool work = false;       ///< (work(from, to, y_from, y_to)) done between two states on one mesh [J]
+  bool body = false;       ///< (body()) first coordinate of a body that follows what the other coordinates do
+  bool place = false;      ///< (place()) the coordinate of a place that it holds
+  bool stop = false;       ///< (closed_stop()) the number of the stop that it keeps closed
+  bool connector = false;  ///< (connector()) the number of its connector, with length_and_force(state, y)
+};
+
+namespace hooks {
+
+NURBEAM_HOOK(rate);
+NURBEAM_HOOK(acceleration);
+NURBEAM_HOOK(curvature);
+NURBEAM_HOOK(force);
+NURBEAM_HOOK(couple);
+NURBEAM_HOOK(action);
+NURBEAM_HOOK(body);
+NURBEAM_HOOK(place);
+NURBEAM_HOOK(closed_stop);
+
+}  // namespace hooks
+
+/// Whether a constraint keeps to what it says that it offers, in dimension D: a misspelt hook does not
+/// compile.
+template <class C, int D>
+consteval bool keeps_constraint_offers() {
+  using namespace hooks;
+  using Y = typename ConstraintTerms<D>::Multipliers;
+  using Rows = Eigen::VectorXd;
+  constexpr ConstraintOffers o = C::offers;
+  constexpr bool has_rate = requires(const C& c) { c.rate(0.0); };
+  constexpr bool has_acceleration = requires(const C& c) { c.acceleration(0.0); };
+  constexpr bool has_curvature = requires(const C& c, const MeshedBeams<D>& at, const State& x,
+                                          const Eigen::Matrix<double, ConstraintTerms<D>::size, 1>& v) {
+    c.curvature(at, x, v);
+  };
+  constexpr bool has_force = requires(const C& c, const Rows& y) { Eigen::Vector3d(c.force(y)); };
+  constexpr bool has_couple = requires(const C& c, const MeshedBeams<D>& at, const State& x, const Rows& y) {
+    Eigen::Vector3d(c.couple(at, x, y));
+  };
+  constexpr bool has_action = requires(const C& c, const MeshedBeams<D>& at, const State& x, const Y& y) {
+    std::optional<PointAction>(c.action(at, x, y));
+  };
+  constexpr bool has_on_body = requires(const C& c, const State& x, const Rows& y) { c.on_body(0, x, y); };
+  constexpr bool has_work = requires(const C& c, const State& x, const Rows& y) {
+    double(c.work(x, x, y, y));
+  };
+  constexpr bool has_connector = requires(const C& c, const State& x, const Rows& y) {
+    int(c.connector());
+    std::pair<double, double>(c.length_and_force(x, y));
+  };
+  return keeps_word(o.rates, names_rate<C>, has_rate) &&
+         keeps_word(o.rates, names_acceleration<C>, has_acceleration) &&
+         keeps_word(o.curvature, names_curvature<C>, has_curvature) &&
+         keeps_word(o.force, names_force<C>, has_force) &&
+         keeps_word(o.couple, names_couple<C>, has_couple) &&
+         keeps_word(o.action, names_action<C>, has_action) &&
+         keeps_word(o.on_body, names_on_body<C>, has_on_body) &&
+         keeps_word(o.work, names_work<C>, has_work) &&
+         keeps_word(
+             o.body, names_body<C>, requires(const C& c) { int(c.body()); }) &&
+         keeps_word(
+             o.place, names_place<C>, requires(const C& c) { int(c.place()); }) &&
+         keeps_word(
+             o.stop, names_closed_stop<C>, requires(const C& c) { int(c.closed_stop()); }) &&
+         keeps_word(o.connector, names_connector<C>, has_connector);
+}
+
+}  // namespace nurbeam
