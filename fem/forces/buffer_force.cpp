@@ -14,7 +14,7 @@ BufferForce<D>::BufferForce(const MeshedBeams<D>& at, int stop)
 template <int D>
 double BufferForce<D>::force(const MeshedBeams<D>& at, const State& state) const {
   const double x = pressed_in(state);
-  const BufferContact contact = buffer_contact(at.structure, state.memory, stop_);
+  const BufferContact contact = buffer_contact(at.mesh.memory, state.memory, stop_);
   const Buffer& buffer = *stop(at).buffer;
   // One that begins a step away has no damper in it: within a step nothing jumps.
   if (contact == BufferContact::away) return std::max(0.0, buffer.stiffness * x);
@@ -37,7 +37,7 @@ StopDistance::Matrix BufferForce<D>::tangent(const MeshedBeams<D>& at, const Sta
   const double N = force(at, state);
   if (N == 0) return StopDistance::Matrix::Zero(W.size(), W.size());
   const Buffer& buffer = *stop(at).buffer;
-  const bool away = buffer_contact(at.structure, state.memory, stop_) == BufferContact::away;
+  const bool away = buffer_contact(at.mesh.memory, state.memory, stop_) == BufferContact::away;
   const double c = away ? 0 : buffer.damping;
   const StopDistance::Matrix H = distance_.hessian(state.q);
   return (w.stiffness * buffer.stiffness + w.damping * c) * W * W.transpose() +
@@ -64,12 +64,12 @@ double BufferForce<D>::loss(const MeshedBeams<D>& at, const State& from, const S
 template <int D>
 void BufferForce<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const {
   if (memory.size() == 0) return;
-  const BufferContact contact = buffer_contact(at.structure, memory, stop_);
+  const BufferContact contact = buffer_contact(at.mesh.memory, memory, stop_);
   const bool let_go = contact == BufferContact::let_go;
   if (contact == BufferContact::away || !(pressed_in(state) > 0))
-    set_buffer_contact(at.structure, memory, stop_, BufferContact::away);
+    set_buffer_contact(at.mesh.memory, memory, stop_, BufferContact::away);
   else if (force(at, state) > 0 && !(let_go && distance_.rate(state.q, state.v) >= 0))
-    set_buffer_contact(at.structure, memory, stop_, BufferContact::pressing);
+    set_buffer_contact(at.mesh.memory, memory, stop_, BufferContact::pressing);
 }
 
 template class BufferForce<2>;

@@ -71,7 +71,7 @@ FrictionForce SlidingFriction<D>::force_of(const MeshedBeams<D>& at, const Slope
                             .s = state.q[place_],
                             .rate = state.v[place_],
                             .t = state.t};
-  return friction_force(body_, point, friction_memory(at.structure, state.memory, rider_));
+  return friction_force(body_, point, friction_memory(at.mesh.memory, state.memory, rider_));
 }
 
 template <int D>
@@ -107,7 +107,7 @@ typename SlidingFriction<D>::Matrix SlidingFriction<D>::tangent(const MeshedBeam
 
 template <int D>
 void SlidingFriction<D>::add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const {
-  if (state.memory.size() > 0) sum.spring += stored(friction_memory(at.structure, state.memory, rider_));
+  if (state.memory.size() > 0) sum.spring += stored(friction_memory(at.mesh.memory, state.memory, rider_));
 }
 
 template <int D>
@@ -115,13 +115,13 @@ double SlidingFriction<D>::loss(const MeshedBeams<D>& at, const State& from, con
   if (from.memory.size() == 0) return 0;
   const double work =
       (friction(at, from).value + friction(at, to).value) / 2 * (to.q[place_] - from.q[place_]);
-  return stored(friction_memory(at.structure, from.memory, rider_)) -
-         stored(friction_memory(at.structure, to.memory, rider_)) - work;
+  return stored(friction_memory(at.mesh.memory, from.memory, rider_)) -
+         stored(friction_memory(at.mesh.memory, to.memory, rider_)) - work;
 }
 
 template <int D>
 void SlidingFriction<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const {
-  if (memory.size() > 0) set_friction_memory(at.structure, memory, rider_, friction(at, state).memory);
+  if (memory.size() > 0) set_friction_memory(at.mesh.memory, memory, rider_, friction(at, state).memory);
 }
 
 template class SlidingFriction<2>;

@@ -29,7 +29,7 @@ ConnectorPull Spring<D>::pull(const MeshedBeams<D>& at, const Line& line, const 
   std::optional<bool> held;
   if (carries_one_sign(at) && state.sides.size() > 0) held = state.sides[side(at)] != 0;
   const bool taut = connector.jumps() && state.memory.size() > 0
-                        ? is_taut(at.structure, state.memory, number_)
+                        ? is_taut(at.mesh.memory, state.memory, number_)
                         : held.value_or(connector.sign() * stretch > 0);
   return {connector, stretch, line.rate, taut, held};
 }
@@ -83,7 +83,7 @@ void Spring<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::Vect
   // One that has been slack and come back within the step pulls on: the force goes on over its end.
   const bool pulls = pull(at, line, state).force != 0;
   const double stretch = connector.sign() * (line.length - connector.length);
-  set_taut(at.structure, memory, number_, pulls || stretch > -connector.least_stretch(line.length));
+  set_taut(at.mesh.memory, memory, number_, pulls || stretch > -connector.least_stretch(line.length));
 }
 
 template <int D>

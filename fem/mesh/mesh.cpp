@@ -12,6 +12,7 @@ class Numbering {
  public:
   Numbering(const Structure& structure, const MeshPlan& plan) : structure_(structure), plan_(plan) {
     mesh_.dimension = structure.dimension;
+    mesh_.memory = MemoryPlaces(structure);
     mesh_.riders.assign(structure.riders.size(), {-1, -1});
     mesh_.bodies.assign(structure.bodies.size(), -1);
     std::size_t most = structure.riders.size();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fem/mesh/mesh_plan.h"
+#include "fem/structure/memory_places.h"
 
 namespace nurbeam {
 
@@ -48,6 +49,7 @@ struct Mesh {
   std::vector<int> first_span;               ///< per beam, plus the end
   std::vector<MeshRider> riders;
   std::vector<int> bodies;  ///< first of D position coordinates of each body
+  MemoryPlaces memory;      ///< in State::memory
   int coordinate_count = 0;
 
   const MeshNode& node_a(const MeshSpan& span) const { return nodes[span.beam][span.node_a]; }

@@ -41,6 +41,7 @@ Assembly<D>::Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, con
   Binding<D> binding{beams(), drawn, held};
   bind_constraints(binding);
   bind_forces(binding);
+  find_parts();
   list_blocks();
   for (const Assembly* other : {neighbour, like})
     if (other && couples_as(*other)) {
@@ -110,6 +111,32 @@ void Assembly<D>::bind_forces(const Binding<D>& binding) {
   for (const Force& force : model_->forces)
     forces_.push_back(
         std::visit([&](const auto& description) { return bind_force<D>(description, binding); }, force));
+}
+
+template <int D>
+void Assembly<D>::find_parts() {
+  parts_.friction.assign(model_->riders.size(), -1);
+  parts_.held_places = parts_.friction;
+  parts_.springs.assign(model_->connectors.size(), -1);
+  parts_.rods = parts_.springs;
+  parts_.contacts.assign(model_->stops.size(), -1);
+  for (int i = 0; i < static_cast<int>(forces_.size()); ++i)
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (offers_of<decltype(f)>.friction) parts_.friction[f.rider()] = i;
+          if constexpr (offers_of<decltype(f)>.connector) parts_.springs[f.connector()] = i;
+        },
+        forces_[i]);
+  for (int i = 0; i < static_cast<int>(constraints_.size()); ++i)
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (offers_of<decltype(c)>.connector) parts_.rods[c.connector()] = i;
+          if constexpr (offers_of<decltype(c)>.stop) parts_.contacts[c.closed_stop()] = i;
+          if constexpr (offers_of<decltype(c)>.place)
+            for (std::size_t j = 0; j < mesh_.riders.size(); ++j)
+              if (mesh_.riders[j].place == c.place()) parts_.held_places[j] = i;
+        },
+        constraints_[i]);
 }
 
 template <int D>

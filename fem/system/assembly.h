@@ -55,6 +55,20 @@ class Assembly final : public SecondOrderSystem {
       std::visit([&](const auto& c) { visit(c, Rows{constraint_blocks_[i].row, c.rows}); }, constraints_[i]);
   }
 
+  /// The same of one of them.
+  template <class Visit>
+  void visit_constraint(int i, Visit&& visit) const {
+    std::visit([&](const auto& c) { visit(c, Rows{constraint_blocks_[i].row, c.rows}); }, constraints_[i]);
+  }
+  /// Numbers of the forces and constraints of the mesh that are of parts of the structure; -1 where there is
+  /// none.
+  struct Parts {
+    std::vector<int> friction, held_places;  ///< per rider: its force; the constraint of its place
+    std::vector<int> springs, rods;          ///< per connector: its force, or its constraint
+    std::vector<int> contacts;               ///< per stop: the constraint that keeps it closed
+  };
+  const Parts& parts() const { return parts_; }
+
   /// The multipliers' force and couple on the beam that constraint i of the model holds, on the first of two
   /// [N], [N m]; impulses where `multipliers` are.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> reaction(int i, const State& state,
@@ -190,6 +204,7 @@ class Assembly final : public SecondOrderSystem {
 
   void batch_elements();
   void bind_constraints(Binding<D>& binding);
+  void find_parts();
   void bind_forces(const Binding<D>& binding);
   void list_blocks();
   bool couples_as(const Assembly& other) const;
@@ -241,6 +256,7 @@ class Assembly final : public SecondOrderSystem {
   std::vector<MeshElement<D>> elements_;
   std::vector<Walk> walks_;  // of each beam
   std::vector<BoundConstraint<D>> constraints_;
+  Parts parts_;
   std::vector<BoundForce<D>> forces_;
 
   int constraint_count_ = 0;

@@ -90,13 +90,13 @@ std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const St
   std::optional<FrictionForce> found;
   if (state.memory.size() == 0) return found;
   with_assembly(system, [&](const auto& a) {
-    for (const auto& force : a.forces())
-      std::visit(
-          [&](const auto& f) {
-            if constexpr (offers_of<decltype(f)>.friction)
-              if (f.rider() == rider) found = f.friction(a.beams(), state);
-          },
-          force);
+    const int i = a.parts().friction[rider];
+    if (i < 0) return;
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (offers_of<decltype(f)>.friction) found = f.friction(a.beams(), state);
+        },
+        a.forces()[i]);
   });
   return found;
 }
@@ -117,16 +117,21 @@ Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int ri
   return system.model().bodies[body].mass * (acceleration - system.model().gravity) - given;
 }
 
+namespace {
+
+// First row of constraint i of the mesh; none where it is -1.
+template <int D>
+std::optional<int> first_row(const Assembly<D>& a, int i) {
+  std::optional<int> row;
+  if (i >= 0) a.visit_constraint(i, [&](const auto&, const auto& rows) { row = rows.first; });
+  return row;
+}
+
+}  // namespace
+
 std::optional<int> row_of_place(const BeamSystem& system, int rider) {
-  std::optional<int> found;
-  const int place = system.mesh().riders[rider].place;
-  with_assembly(system, [&](const auto& a) {
-    a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (offers_of<decltype(c)>.place)
-        if (c.place() == place) found = rows.first;
-    });
-  });
-  return found;
+  return with_assembly(
+      system, [&](const auto& a) { return first_row(a, a.parts().held_places[rider]); });
 }
 
 namespace {
@@ -153,31 +158,24 @@ double holding_force(const BeamSystem& system, const State& state, int rider) {
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector) {
   std::pair<double, double> found;
   with_assembly(system, [&](const auto& a) {
-    for (const auto& force : a.forces())
+    if (const int i = a.parts().springs[connector]; i >= 0)
       std::visit(
           [&](const auto& f) {
-            if constexpr (offers_of<decltype(f)>.connector)
-              if (f.connector() == connector) found = f.length_and_force(a.beams(), state);
+            if constexpr (offers_of<decltype(f)>.connector) found = f.length_and_force(a.beams(), state);
           },
-          force);
-    a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (offers_of<decltype(c)>.connector)
-        if (c.connector() == connector)
+          a.forces()[i]);
+    if (const int i = a.parts().rods[connector]; i >= 0)
+      a.visit_constraint(i, [&](const auto& c, const auto& rows) {
+        if constexpr (offers_of<decltype(c)>.connector)
           found = c.length_and_force(state, state.lambda.segment(rows.first, rows.count));
-    });
+      });
   });
   return found;
 }
 
 std::optional<int> row_of_rod(const BeamSystem& system, int connector) {
-  std::optional<int> found;
-  with_assembly(system, [&](const auto& a) {
-    a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (offers_of<decltype(c)>.connector)
-        if (c.connector() == connector) found = rows.first;
-    });
-  });
-  return found;
+  return with_assembly(
+      system, [&](const auto& a) { return first_row(a, a.parts().rods[connector]); });
 }
 
 std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector) {
@@ -198,14 +196,12 @@ std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const St
 }
 
 double contact_force(const BeamSystem& system, const State& state, int stop) {
-  double force = 0;
-  with_assembly(system, [&](const auto& a) {
-    a.for_each_constraint([&](const auto& c, const auto& rows) {
-      if constexpr (offers_of<decltype(c)>.stop)
-        if (c.closed_stop() == stop) force = -state.lambda[rows.first];
-    });
-  });
-  return force;
+  return with_assembly(
+      system,
+      [&](const auto& a) {
+        const std::optional<int> row = first_row(a, a.parts().contacts[stop]);
+        return row ? -state.lambda[*row] : 0;
+      });
 }
 
 std::optional<double> place(const BeamSystem& system, const State& state, int rider) {

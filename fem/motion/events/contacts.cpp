@@ -48,7 +48,7 @@ std::vector<ContactEvent> possible_events(const BeamSystem& system, const State&
   std::vector<ContactEvent> events;
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
     if (!is_in_place(system.mesh(), model.stops[i])) continue;
-    const BufferContact contact = buffer_contact(model, before.memory, i);
+    const BufferContact contact = buffer_contact(system.mesh().memory, before.memory, i);
     if (contact == BufferContact::let_go) continue;
     const bool pressed =
         model.stops[i].buffer ? contact == BufferContact::pressing : system.mesh().plan.is_closed(i);
@@ -132,7 +132,7 @@ bool start_contacts(MeshedState& at, double step) {
   for (int i = 0; i < static_cast<int>(model.stops.size()); ++i) {
     if (!touches(*at.system, at.state, i) || runs_into(at, i, step)) continue;
     if (model.stops[i].buffer)
-      set_buffer_contact(model, at.state.memory, i, BufferContact::pressing);
+      set_buffer_contact(at.system->mesh().memory, at.state.memory, i, BufferContact::pressing);
     else if (std::optional<MeshedState> next = hit_stop(at, i, step, Arrival::in_step))
       at = std::move(*next);
     else
@@ -144,7 +144,7 @@ bool start_contacts(MeshedState& at, double step) {
 std::optional<EventKind> apply(MeshedState& at, const ContactEvent& event, double step, Arrival arrival) {
   const bool hits = event.kind == ContactEvent::Kind::hits;
   if (stop_of(*at.system, event.stop).buffer) {
-    set_buffer_contact(at.system->model(), at.state.memory, event.stop,
+    set_buffer_contact(at.system->mesh().memory, at.state.memory, event.stop,
                        hits ? BufferContact::pressing : BufferContact::let_go);
     return hits ? EventKind::hits_stop : EventKind::leaves_stop;
   }

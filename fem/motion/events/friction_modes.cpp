@@ -48,7 +48,8 @@ std::optional<HeldMoment> hold(const MeshedState& at, const std::vector<int>& ri
   moment.state.lambda = Eigen::VectorXd::Zero(moment.system.constraint_count());
   for (const int j : riders) {
     moment.state.v[moment.system.mesh().riders[j].place] = 0;
-    set_friction_memory(at.system->model(), moment.state.memory, j, {0, *place(*at.system, at.state, j), 0});
+    set_friction_memory(at.system->mesh().memory, moment.state.memory, j,
+                        {0, *place(*at.system, at.state, j), 0});
   }
   if (make_accelerations_smooth(moment.system, step, moment.state) != ConsistencyStatus::done) return {};
   return moment;
@@ -88,7 +89,7 @@ std::vector<int> come_to_rest_with(const BeamSystem& system, int rider) {
 // One that has been held by its friction slides, the way that it is pulled.
 void break_loose(MeshedState& at, int rider) {
   const FrictionForce friction = *sliding_friction(*at.system, at.state, rider);
-  set_friction_memory(at.system->model(), at.state.memory, rider,
+  set_friction_memory(at.system->mesh().memory, at.state.memory, rider,
                       sliding(at.system->model(), rider, *place(*at.system, at.state, rider),
                               friction.trial > 0 ? 1 : -1, friction.bound));
 }
@@ -98,7 +99,7 @@ void break_loose(MeshedState& at, int rider) {
 void stick_at_bound(MeshedState& at, int rider, int way) {
   const BeamModel& model = at.system->model();
   const double bound = sliding_friction(*at.system, at.state, rider)->bound;
-  set_friction_memory(model, at.state.memory, rider,
+  set_friction_memory(at.system->mesh().memory, at.state.memory, rider,
                       {way * bound / stick_stiffness(model, rider), *place(*at.system, at.state, rider), 0});
 }
 
@@ -134,7 +135,7 @@ std::vector<int> joints_with_friction(const BeamSystem& system) {
 }
 
 bool start_memory(MeshedState& at, double step) {
-  at.state.memory = no_memory(at.system->model());
+  at.state.memory = no_memory(at.system->mesh().memory);
   start_connectors(at);
   return settle_friction(at, joints_with_friction(*at.system), step, false);
 }
@@ -142,7 +143,7 @@ bool start_memory(MeshedState& at, double step) {
 bool settle_friction(MeshedState& at, const std::vector<int>& riders, double step, bool at_rest) {
   const BeamModel& model = at.system->model();
   const auto remember = [&](int j, const FrictionMemory& memory) {
-    set_friction_memory(at.system->model(), at.state.memory, j, memory);
+    set_friction_memory(at.system->mesh().memory, at.state.memory, j, memory);
   };
   std::vector<int> still;
   const std::vector<bool> blocked = blocked_joints(*at.system);
@@ -199,8 +200,8 @@ bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, d
 
 double holding_capacity(const BeamSystem& system, const State& state, int rider, bool sticking) {
   State asked = state;
-  asked.memory = no_memory(system.model());
-  set_friction_memory(system.model(), asked.memory, rider,
+  asked.memory = no_memory(system.mesh().memory);
+  set_friction_memory(system.mesh().memory, asked.memory, rider,
                       {0, *place(system, state, rider), sticking ? 0 : 1});
   const std::optional<FrictionForce> friction = sliding_friction(system, asked, rider);
   return friction ? friction->bound * friction->per_along : 0;
@@ -210,14 +211,14 @@ void hold_by_friction(MeshedState& at, const std::vector<bool>& except) {
   const std::vector<int> riders = joints_with_friction(*at.system);
   if (riders.empty()) return;
   State held = at.state;
-  held.memory = no_memory(at.system->model());
+  held.memory = no_memory(at.system->mesh().memory);
   for (const int j : riders) {
     const double s = *place(*at.system, at.state, j);
-    set_friction_memory(at.system->model(), held.memory, j, {0, s, 0});
+    set_friction_memory(at.system->mesh().memory, held.memory, j, {0, s, 0});
     if (except[j] || at.system->model().riders[j].motion) continue;
     const double along =
         holding_force(*at.system, at.state, j) / sliding_friction(*at.system, held, j)->per_along;
-    set_friction_memory(at.system->model(), held.memory, j,
+    set_friction_memory(at.system->mesh().memory, held.memory, j,
                         {-along / stick_stiffness(at.system->model(), j), s, 0});
   }
   at.state.memory = held.memory;
@@ -279,7 +280,7 @@ std::vector<int> changed_ways(const BeamSystem& system, const State& before, con
 }
 
 int sliding_way(const BeamSystem& system, const State& state, int rider) {
-  return friction_memory(system.model(), state.memory, rider).slides;
+  return friction_memory(system.mesh().memory, state.memory, rider).slides;
 }
 
 }  // namespace nurbeam

@@ -19,7 +19,7 @@ std::optional<TautEvent> first_taut(const BeamSystem& system, const State& befor
   const BeamModel& model = system.model();
   std::optional<TautEvent> first;
   for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
-    if (!model.connectors[i].jumps() || is_taut(model, before.memory, i)) continue;
+    if (!model.connectors[i].jumps() || is_taut(system.mesh().memory, before.memory, i)) continue;
     TautEvent event{i, 0};
     const double from = beyond(system, before, before, event), to = beyond(system, before, after, event);
     if (!(from < -tolerance(system, before, event)) || !(to > 0)) continue;
@@ -30,7 +30,7 @@ std::optional<TautEvent> first_taut(const BeamSystem& system, const State& befor
 }
 
 void apply(MeshedState& at, const TautEvent& event) {
-  set_taut(at.system->model(), at.state.memory, event.connector, true);
+  set_taut(at.system->mesh().memory, at.state.memory, event.connector, true);
 }
 
 void start_connectors(MeshedState& at) {
@@ -38,7 +38,7 @@ void start_connectors(MeshedState& at) {
   for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
     const TautEvent event{i, 0};
     if (!model.connectors[i].jumps()) continue;
-    set_taut(model, at.state.memory, i,
+    set_taut(at.system->mesh().memory, at.state.memory, i,
              beyond(*at.system, at.state, at.state, event) > -tolerance(*at.system, at.state, event));
   }
 }

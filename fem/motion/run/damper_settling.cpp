@@ -32,8 +32,9 @@ std::optional<Eigen::VectorXd> change_of_acceleration(const MeshedState& at, con
 std::optional<double> time_of_buffer(const MeshedState& at, int number) {
   const BeamModel& model = at.system->model();
   const Stop& stop = model.stops[number];
-  const auto damped = change_of_acceleration(
-      at, [&](Eigen::VectorXd& memory) { set_buffer_contact(model, memory, number, BufferContact::away); });
+  const auto damped = change_of_acceleration(at, [&](Eigen::VectorXd& memory) {
+    set_buffer_contact(at.system->mesh().memory, memory, number, BufferContact::away);
+  });
   if (!damped) return {};
   const StopDistance distance(model, at.system->mesh(), stop);
   return std::abs(distance.rate(at.state.q, at.state.v) / distance.rate(at.state.q, *damped));
@@ -41,9 +42,8 @@ std::optional<double> time_of_buffer(const MeshedState& at, int number) {
 
 // m/c of a connector that has come taut [s].
 std::optional<double> time_of_connector(const MeshedState& at, int number) {
-  const BeamModel& model = at.system->model();
-  const auto damped =
-      change_of_acceleration(at, [&](Eigen::VectorXd& memory) { set_taut(model, memory, number, false); });
+  const auto damped = change_of_acceleration(
+      at, [&](Eigen::VectorXd& memory) { set_taut(at.system->mesh().memory, memory, number, false); });
   if (!damped) return {};
   // Its force is linear in what it is stretched by.
   const auto force = [&](const Eigen::VectorXd& v) {

@@ -47,7 +47,7 @@ void land_at(Run& run, const StepTaken& taken, const Crossing& crossing) {
 
 // Friction, stops and connectors, and bodies on guides have events.
 bool has_events(const BeamModel& model) {
-  return no_memory(model).size() > 0 ||
+  return MemoryPlaces(model).size > 0 ||
          std::any_of(
              model.beams.begin(), model.beams.end(), [](const Beam& beam) { return beam.rigid; });
 }

@@ -226,7 +226,7 @@ struct Simulation::Implementation {
       run_.change(&replan);
     }
     if (!run_.change(&take_first_velocities)) return run_.fail(Failure::Kind::initial_velocities);
-    if (no_memory(*run_.model).size() > 0 &&
+    if (MemoryPlaces(*run_.model).size > 0 &&
         !(start_memory(run_.at, run_.shortest_time()) && start_contacts(run_.at, run_.shortest_time())))
       return run_.fail(Failure::Kind::mass_matrix);
     return pass_first_impacts(run_) && run_.restart();

@@ -16,7 +16,7 @@ class PulledFromItsStop {
  public:
   PulledFromItsStop() : run_{.model = model(), .options = options(), .observer = {}} {
     run_.at = MeshedState::drawn(run_.model);
-    run_.at.state.memory = no_memory(*run_.model);
+    run_.at.state.memory = no_memory(run_.at.system->mesh().memory);
     run_.step = *run_.options.step;
     EXPECT_TRUE(start_contacts(run_.at, run_.step));
     EXPECT_TRUE(run_.at.system->mesh().plan.is_closed(0));
