@@ -9,15 +9,6 @@ namespace nurbeam {
 
 namespace {
 
-CaseConnectorEnd read_end(const Json& json, const std::string& path, Findings& findings) {
-  CaseConnectorEnd end{.path = path, .beam = text(json, "beam"), .body = text(json, "body")};
-  if (has(json, "point")) end.point = vector(json, "point");
-  if (has(json, "beam") && !json.contains("at"))
-    findings.error(path, "\"beam\" needs \"at\" beside it: the place on the beam");
-  end.at = read_place(json);
-  return end;
-}
-
 // A rod has a length and nothing else; the others need a stiffness.
 void check_stiffness(const Json& json, const std::string& path, const CaseConnector& connector,
                      Findings& findings) {
@@ -46,34 +37,16 @@ void check_stiffness(const Json& json, const std::string& path, const CaseConnec
 }  // namespace
 
 CaseConnector read_connector(const Json& json, const std::string& path, Findings& findings) {
-  CaseConnector connector{
-      .path = path,
-      .name = text(json, "name"),
-      .ends = {read_end(part(json, "from"), child(path, "from"), findings),
-               read_end(part(json, "to"), child(path, "to"), findings)},
-      .type = chosen<ConnectorType>(json, "type",
-                                    {{"", ConnectorType::spring},
-                                     {"spring", ConnectorType::spring},
-                                     {"tension-only", ConnectorType::tension_only},
-                                     {"compression-only", ConnectorType::compression_only},
-                                     {"rod", ConnectorType::rod}}),
-      .stiffness = number(json, "stiffness", 0),
-      .damping = number(json, "damping", 0),
-      .force = number(json, "force", 0)};
-  if (has(json, "force")) connector.length_rule = ConnectorLength::force;
-  if (has(json, "length")) {
-    if (json["length"].is_number())
-      connector.length = number(json, "length");
-    else if (text(json, "length") == "as-drawn")
-      connector.length_rule = ConnectorLength::as_drawn;
+  CaseConnector connector;
+  connector.path = path;
+  connector_fields().read(json, path, connector, findings);
+  for (const auto& [key, i] : {std::pair{"from", 0}, std::pair{"to", 1}}) {
+    connector.ends[i].path = child(path, key);
+    if (has(part(json, key), "beam") && !part(json, key).contains("at"))
+      findings.error(connector.ends[i].path, "\"beam\" needs \"at\" beside it: the place on the beam");
   }
-  if (has(json, "direction")) {
-    connector.direction = vector(json, "direction");
-    if (connector.direction->norm() == 0)
-      findings.error(child(path, "direction"), "is [0, 0, 0]; give the direction along which it acts");
-  }
-  const std::vector<double> masses = numbers(json, "end_masses");
-  if (masses.size() == 2) connector.end_masses = {masses[0], masses[1]};
+  if (connector.direction && connector.direction->norm() == 0)
+    findings.error(child(path, "direction"), "is [0, 0, 0]; give the direction along which it acts");
   check_stiffness(json, path, connector, findings);
   return connector;
 }

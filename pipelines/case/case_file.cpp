@@ -18,173 +18,89 @@ namespace nurbeam {
 
 namespace {
 
-std::optional<Eigen::Vector2d> read_offset(const Json& json) {
-  if (!has(json, "offset")) return {};
-  const std::vector<double> offset = numbers(json, "offset");
-  if (offset.size() != 2) return {};  // said where the shape was checked
-  return Eigen::Vector2d(offset[0], offset[1]);
+// The rows of an item, which has been checked against their shape.
+template <class Item>
+Item read_item(const Fields<Item>& fields, const Json& json, const std::string& path, Findings& findings) {
+  Item item;
+  item.path = path;
+  fields.read(json, path, item, findings);
+  return item;
 }
 
-// The direction of a hinge's axis.
-std::optional<Eigen::Vector3d> read_axis(const Json& json, const std::string& path, const char* with,
-                                         Findings& findings) {
-  if (!has(json, "axis")) return {};
+// The direction of a hinge's axis, which only the type `with` has.
+void check_axis(const std::optional<Eigen::Vector3d>& axis, const Json& json, const std::string& path,
+                const char* with, Findings& findings) {
+  if (!axis) return;
   if (text(json, "type") != with)
     findings.error(child(path, "axis"), "is that of a hinge, for the type " + in_quotes(with) + " only");
-  const Eigen::Vector3d axis = vector(json, "axis");
-  if (axis.norm() == 0) findings.error(child(path, "axis"), "is [0, 0, 0]; give the direction of the hinge");
-  return axis;
+  if (axis->norm() == 0) findings.error(child(path, "axis"), "is [0, 0, 0]; give the direction of the hinge");
 }
 
-CaseLoad read_load(const Json& json, const std::string& path) {
-  CaseLoad load;
-  load.path = path;
-  load.beam = text(json, "beam");
-  load.at = read_place(json);
-  load.follower = flag(json, "follower");
-  load.moving_speed = optional_number(part(json, "moves"), "speed");
-  load.time = time_table(json, "time");
-  for (const auto& [key, kind] : {std::pair{"force", CaseLoad::Kind::force},
-                                  {"moment", CaseLoad::Kind::moment},
-                                  {"force_per_length", CaseLoad::Kind::force_per_length}}) {
-    if (has(json, key)) {
-      load.kind = kind;
-      load.value = vector(json, key);
-    }
-  }
-  load.offset = read_offset(json);
-  if (has(json, "torque_per_length")) {
-    load.kind = CaseLoad::Kind::torque_per_length;
-    load.torque = number(json, "torque_per_length", 0);
-  }
-  return load;
-}
-
-// Where a guided support is free.
-std::optional<Eigen::Vector3d> read_guide(const Json& json, const std::string& path, Findings& findings) {
-  const bool guided = text(json, "type") == "guided";
-  if (guided && !json.contains("direction"))
-    findings.error(path, "\"guided\" needs the \"direction\" along which the support is free");
-  if (!has(json, "direction")) return {};
-  if (!guided) findings.error(child(path, "direction"), "is for the type \"guided\" only");
-  const Eigen::Vector3d direction = vector(json, "direction");
-  if (direction.norm() == 0)
-    findings.error(child(path, "direction"),
-                   "is [0, 0, 0]; give the direction along which the support is free");
-  return direction;
+CaseLoad read_load(const Json& json, const std::string& path, Findings& findings) {
+  return read_item(load_fields(), json, path, findings);
 }
 
 CaseSupport read_support(const Json& json, const std::string& path, Findings& findings) {
-  return {.type = chosen<CaseSupport::Type>(json, "type",
-                                            {{"clamped", CaseSupport::Type::clamped},
-                                             {"pinned", CaseSupport::Type::pinned},
-                                             {"fork", CaseSupport::Type::fork},
-                                             {"guided", CaseSupport::Type::guided}}),
-          .name = text(json, "name"),
-          .path = path,
-          .beam = text(json, "beam"),
-          .at = read_place(json),
-          .motion = vector_table(json, "motion"),
-          .axis = read_axis(json, path, "pinned", findings),
-          .direction = read_guide(json, path, findings),
-          .force = number(json, "force", 0),
-          .mass = number(json, "mass", 0),
-          .motion_law = optional_integer(json, "motion_law")};
+  CaseSupport support = read_item(support_fields(), json, path, findings);
+  check_axis(support.axis, json, path, "pinned", findings);
+  const bool guided = support.type == CaseSupport::Type::guided;
+  if (guided && !json.contains("direction"))
+    findings.error(path, "\"guided\" needs the \"direction\" along which the support is free");
+  if (!support.direction) return support;
+  if (!guided) findings.error(child(path, "direction"), "is for the type \"guided\" only");
+  if (support.direction->norm() == 0)
+    findings.error(child(path, "direction"),
+                   "is [0, 0, 0]; give the direction along which the support is free");
+  return support;
 }
 
-std::optional<Friction> read_friction(const Json& joint, const std::string& path, Findings& findings) {
-  if (!has(joint, "friction")) return {};
+void check_friction(const Friction& friction, const Json& joint, const std::string& path,
+                    Findings& findings) {
   const Json& json = joint["friction"];
-  const std::string where = child(path, "friction");
-  Friction friction{.coefficient = number(json, "coefficient", 0),
-                    .static_coefficient = optional_number(json, "static"),
-                    .law = text(json, "law") == "capstan" ? Friction::Law::capstan : Friction::Law::coulomb,
-                    .viscous = number(json, "viscous", 0),
-                    .stick_stiffness = optional_number(json, "stick_stiffness")};
-  if (has(json, "force"))
-    friction.force =
-        json["force"].is_array() ? time_table(json, "force") : TimeTable{{0, number(json, "force")}};
   if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
-    findings.error(child(where, "static"),
+    findings.error(child(path, "static"),
                    "is " + text_of(*friction.static_coefficient) + ", less than \"coefficient\", " +
                        text_of(friction.coefficient) + "; a body that sticks is held at least as well");
   const auto is_given = [&](const char* key) { return json.contains(key); };  // be it wrong
   if (!is_given("coefficient") && !is_given("static") && !is_given("force") && !is_given("viscous"))
-    findings.error(where, "resists nothing; give \"coefficient\", \"static\", \"force\" or \"viscous\"");
+    findings.error(path, "resists nothing; give \"coefficient\", \"static\", \"force\" or \"viscous\"");
   if (friction.law == Friction::Law::capstan && text(joint, "slope") != "discontinuous")
-    findings.error(child(where, "law"),
+    findings.error(child(path, "law"),
                    "is \"capstan\", for the kink of a discontinuous slope, but the slope is continuous: "
                    "\"slope\": \"discontinuous\", or leave it out");
-  return friction;
 }
 
 CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, Findings& findings) {
-  const Json& motion = part(json, "motion");
-  return {.path = path,
-          .body = text(json, "body"),
-          .beam = text(json, "beam"),
-          .at = read_place(json),
-          .speed = optional_number(json, "speed"),
-          .motion_speed = optional_number(motion, "speed"),
-          .motion_table = time_table(motion, "table"),
-          .release = optional_number(json, "release"),
-          .continuous_slope = text(json, "slope") != "discontinuous",
-          .leave_at_end = text(json, "at_beam_end") != "stop",
-          .follows_section = flag(json, "follows_section"),
-          .offset = read_offset(json),
-          .rest = chosen<StaticPlace>(
-              json, "equilibrium",
-              {{"", StaticPlace::automatic}, {"held", StaticPlace::held}, {"free", StaticPlace::free}}),
-          .friction = read_friction(json, path, findings),
-          .motion_law = optional_integer(json, "motion_law"),
-          .as_point = text(json, "carried_as") == "point"};
+  CaseSlidingJoint joint = read_item(sliding_joint_fields(), json, path, findings);
+  if (joint.friction) check_friction(*joint.friction, json, child(path, "friction"), findings);
+  return joint;
 }
 
-CaseEyelet read_eyelet(const Json& json, const std::string& path, Findings&) {
-  CaseEyelet eyelet{.path = path,
-                    .name = text(json, "name"),
-                    .beam = text(json, "beam"),
-                    .at = read_place(json),
-                    .continuous_slope = text(json, "slope") == "continuous",
-                    .rest = text(json, "equilibrium") == "held" ? StaticPlace::held : StaticPlace::free,
-                    .leave_at_end = text(json, "at_beam_end") != "stop"};
-  if (has(json, "position")) eyelet.position = vector(json, "position");
-  return eyelet;
+CaseEyelet read_eyelet(const Json& json, const std::string& path, Findings& findings) {
+  return read_item(eyelet_fields(), json, path, findings);
 }
 
 CaseStop read_stop(const Json& json, const std::string& path, Findings& findings) {
-  CaseStop stop{.path = path,
-                .beam = text(json, "beam"),
-                .at = has(json, "at") ? std::optional(read_place(json)) : std::nullopt,
-                .bodies = {},
-                .side = chosen<CaseStop::Side>(json, "side",
-                                               {{"both", CaseStop::Side::both},
-                                                {"before", CaseStop::Side::before},
-                                                {"after", CaseStop::Side::after}}),
-                .restitution = number(json, "restitution", 0),
-                .gap = number(json, "gap", 0)};
-  for (const Json& name : part(json, "bodies"))
-    if (!name.is_null()) stop.bodies.push_back(name.get<std::string>());
-  if (has(json, "stiffness")) stop.buffer = Buffer{number(json, "stiffness"), number(json, "damping", 0)};
+  CaseStop stop = read_item(stop_fields(), json, path, findings);
   if (!stop.at && stop.bodies.size() != 2)
     findings.error(path, "stands nowhere: give \"at\", or the two \"bodies\" that it keeps apart");
   return stop;
 }
 
 CaseBeamJoint read_beam_joint(const Json& json, const std::string& path, Findings& findings) {
-  CaseBeamJoint joint{.name = text(json, "name"),
-                      .path = path,
-                      .beams = {},
-                      .rigid = text(json, "type") == "rigid",
-                      .near = {},
-                      .axis = read_axis(json, path, "hinged", findings)};
-  for (const Json& name : part(json, "beams"))
-    if (!name.is_null()) joint.beams.push_back(name.get<std::string>());
-  if (has(part(json, "at"), "near")) joint.near = vector(json["at"], "near");
+  CaseBeamJoint joint = read_item(beam_joint_fields(), json, path, findings);
+  check_axis(joint.axis, json, path, "hinged", findings);
   return joint;
 }
 
-CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
+CaseBody read_body(const Json& json, const std::string& path, bool has_air, Findings& findings) {
+  if (has(json, "drag_area") && !has_air)
+    findings.error(child(path, "drag_area"),
+                   "needs the \"air\" that drags; at sea level it has a \"density\" of 1.225");
+  return read_item(body_fields(), json, path, findings);
+}
+
+CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings& findings) {
   CaseOutput output;
   constexpr int default_frames = 100;
   if (analysis.type == CaseAnalysis::Type::dynamic)
@@ -213,8 +129,7 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis) {
     }
   }
   for_each_item(json, "probes", "output", [&](const Json& probe, const std::string& path) {
-    output.probes.push_back(
-        {.name = text(probe, "name"), .beam = text(probe, "beam"), .path = path, .at = read_place(probe)});
+    output.probes.push_back(read_item(probe_fields(), probe, path, findings));
   });
   output.paraview = flag(json, "paraview");
   output.report = !has(json, "report") || flag(json, "report");
@@ -229,31 +144,22 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   result.air = {number(part(json, "air"), "density", 0),
                 vector(part(json, "air"), "wind", Eigen::Vector3d::Zero())};
   const std::filesystem::path directory = std::filesystem::absolute(file).parent_path();
-  for_each_item(json, "beams", "", [&](const Json& beam, const std::string& path) {
-    result.beams.push_back(read_beam(beam, path, directory, findings));
-  });
+  for_each_item(
+      json, "beams", "",
+      [&](const Json& beam, const std::string& path) {
+        result.beams.push_back(read_beam(beam, path, directory, findings));
+      });
   for_each_item(
       json, "bodies", "",
       [&](const Json& body, const std::string& path) {
-        if (has(body, "drag_area") && !has(json, "air"))
-          findings.error(child(path, "drag_area"),
-                         "needs the \"air\" that drags; at sea level it has a \"density\" of 1.225");
-        result.bodies.push_back({.name = text(body, "name"),
-                                 .mass = number(body, "mass"),
-                                 .roll_inertia = number(body, "roll_inertia", 0),
-                                 .drag_area = number(body, "drag_area", 0),
-                                 .path = path,
-                                 .velocity = vector(body, "velocity", Eigen::Vector3d::Zero())});
-        if (has(body, "position")) result.bodies.back().position = vector(body, "position");
+        result.bodies.push_back(read_body(body, path, has(json, "air"), findings));
       });
-  for_each_item(
-      json, "loads", "",
-      [&](const Json& load, const std::string& path) { result.loads.push_back(read_load(load, path)); });
   const auto read_all = [&](const char* key, auto& list, auto read) {
     for_each_item(json, key, "", [&](const Json& item, const std::string& path) {
       list.push_back(read(item, path, findings));
     });
   };
+  read_all("loads", result.loads, read_load);
   read_all("supports", result.supports, read_support);
   read_all("sliding_joints", result.sliding_joints, read_sliding_joint);
   read_all("eyelets", result.eyelets, read_eyelet);
@@ -267,7 +173,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
     const std::vector<double> factors = result.analysis.factors();
     if (!factors.empty()) result.analysis.end_time = factors.back();
   }
-  result.output = read_output(part(json, "output"), result.analysis);
+  result.output = read_output(part(json, "output"), result.analysis, findings);
   return result;
 }
 

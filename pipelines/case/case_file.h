@@ -18,16 +18,17 @@
 #include "fem/structure/displacement_table.h"
 #include "fem/structure/structure.h"
 #include "nurbs/smooth/smooth_nurbs.h"
+#include "pipelines/case/parts/beam_joint.h"
+#include "pipelines/case/parts/body.h"
+#include "pipelines/case/parts/connector.h"
+#include "pipelines/case/parts/eyelet.h"
+#include "pipelines/case/parts/load.h"
+#include "pipelines/case/parts/probe.h"
+#include "pipelines/case/parts/sliding_joint.h"
+#include "pipelines/case/parts/stop.h"
+#include "pipelines/case/parts/support.h"
 
 namespace nurbeam {
-
-/// A place on a beam; lengths in reference arc length from the beam's start.
-struct Place {
-  enum class Kind { start, end, length, fraction, near } kind = Kind::start;
-  double value = 0;                                 ///< [m] for length, [-] in [0,1] for fraction
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m] for near
-  std::optional<double> within = {};  ///< greatest distance of the point from the axis [m] for near
-};
 
 /// Which curves of a CAD file.
 struct AxisFile {
@@ -139,113 +140,6 @@ struct CaseBeam {
   std::optional<CaseVelocity> velocity = {};
 };
 
-struct CaseBody {
-  std::string name;
-  double mass = 0;          ///< [kg]
-  double roll_inertia = 0;  ///< of one that follows a section [kg m^2]
-  double drag_area = 0;     ///< C_d A [m^2]
-  std::string path = {};
-  std::optional<Eigen::Vector3d> position = {};        ///< of one that no sliding joint places [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< likewise [m/s]
-};
-
-struct CaseLoad {
-  enum class Kind { force, moment, force_per_length, torque_per_length } kind = Kind::force;
-  std::string path;
-  std::string beam;
-  Place at;                                         ///< for force and moment
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N], [N m] or [N/m]
-  double torque = 0;                                ///< per length [N m/m]
-  std::optional<Eigen::Vector2d> offset;            ///< of a force from the axis [m]
-  bool follower = false;
-  std::optional<double> moving_speed;  ///< along the beam from `at` [m/s]
-  TimeTable time;                      ///< factor; empty: 1
-};
-
-struct CaseSupport {
-  enum class Type { clamped, pinned, fork, guided } type = Type::pinned;
-  std::string name;  ///< heads the columns of its reaction; may be empty
-  std::string path;
-  std::string beam;
-  Place at;
-  std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
-  std::optional<Eigen::Vector3d> axis = {};         ///< of a hinge
-  std::optional<Eigen::Vector3d> direction = {};    ///< of a guided one: where it is free
-  double force = 0, mass = 0;                       ///< along it [N], [kg]
-  std::optional<int> motion_law = {};               ///< the function of a program that prescribes it
-};
-
-struct CaseSlidingJoint {
-  std::string path;
-  std::string body, beam;
-  Place at;
-  std::optional<double> speed;         ///< initial [m/s]
-  std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
-  TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
-  std::optional<double> release;       ///< held until then [s]
-  bool continuous_slope = true;
-  bool leave_at_end = true;  ///< false: stop
-  bool follows_section = false;
-  std::optional<Eigen::Vector2d> offset = {};  ///< in the section that it follows [m]
-  StaticPlace rest = StaticPlace::automatic;
-  std::optional<Friction> friction = {};
-  std::optional<int> motion_law = {};  ///< the function of a program that prescribes it
-  bool as_point = false;               ///< the mesh stays as it is where the body is
-};
-
-/// A ring in space through which a beam runs.
-struct CaseEyelet {
-  std::string path;
-  std::string name, beam;
-  Place at;
-  std::optional<Eigen::Vector3d> position = {};  ///< [m]; else where the beam is drawn
-  bool continuous_slope = false;
-  StaticPlace rest = StaticPlace::free;
-  bool leave_at_end = true;  ///< false: stop
-};
-
-/// What keeps bodies on one side of a place of a beam, or two bodies apart.
-struct CaseStop {
-  enum class Side { both, before, after };
-  std::string path;
-  std::string beam;
-  std::optional<Place> at;          ///< of one that stands on the beam
-  std::vector<std::string> bodies;  ///< those that it stops; empty: all on the beam
-  Side side = Side::both;           ///< from where it stops bodies
-  double restitution = 0;
-  std::optional<Buffer> buffer = {};
-  double gap = 0;  ///< between two bodies [m]
-};
-
-/// Beams that meet at one place.
-struct CaseBeamJoint {
-  std::string name;  ///< heads the columns of its forces; may be empty
-  std::string path;
-  std::vector<std::string> beams;            ///< two or more; each is joined to the first
-  bool rigid = false;                        ///< else hinged
-  std::optional<Eigen::Vector3d> near;       ///< where [m]; else where an end of one meets the other
-  std::optional<Eigen::Vector3d> axis = {};  ///< of a hinge
-};
-
-/// What a connector is fastened to: one of these.
-struct CaseConnectorEnd {
-  std::string path, beam, body;
-  Place at = {};                              ///< on the beam
-  std::optional<Eigen::Vector3d> point = {};  ///< [m]
-};
-
-struct CaseConnector {
-  std::string path, name;
-  std::array<CaseConnectorEnd, 2> ends;
-  ConnectorType type = ConnectorType::spring;
-  double stiffness = 0, damping = 0;  ///< [N/m], [N s/m]
-  ConnectorLength length_rule = ConnectorLength::given;
-  std::optional<double> length = {};  ///< where it is given; else that of the drawing [m]
-  double force = 0;                   ///< with ConnectorLength::force [N]
-  std::optional<Eigen::Vector3d> direction = {};
-  std::array<double, 2> end_masses = {0, 0};  ///< [kg]
-};
-
 /// Of modes and buckling.
 struct CaseModes {
   int count = 10;
@@ -273,12 +167,6 @@ struct CaseAnalysis {
   bool has_modes() const { return type == Type::modes || type == Type::buckling; }
   /// An explicit method, which is for models without constraints between moving parts.
   bool is_explicit() const { return std::holds_alternative<ExplicitRungeKutta>(integrator); }
-};
-
-struct CaseProbe {
-  std::string name, beam;
-  std::string path;
-  Place at;
 };
 
 struct CaseOutput {

@@ -19,41 +19,12 @@ Range time_step() { return plausible(1e-12, 1e9); }
 Range element_count() {
   return {.lower = 1, .upper = most_elements, .reason = "the most elements of one beam"};
 }
-/// In the world.
-Shape point() { return vector(Dimension::length, plausible(-1e9, 1e9)); }
-/// Of a point of a section.
-Shape offset() {
-  Shape shape = array(quantity(Dimension::length, plausible(-1e4, 1e4)), 2);
-  shape.most_items = 2;
-  return shape;
-}
-/// Of both ends of a connector.
-Shape masses() {
-  Shape shape =
-      array(Shape{.kind = Kind::quantity, .dimension = Dimension::mass, .range = plausible(0, 1e12)}, 2);
-  shape.most_items = 2;
-  return shape;
-}
 /// [width, height].
 Shape sides() {
   Shape shape =
       array(Shape{.kind = Kind::quantity, .dimension = Dimension::length, .range = plausible(1e-9, 1e4)}, 2);
   shape.most_items = 2;
   return shape;
-}
-
-Shape place() {
-  return either(
-      choice({"start", "end"}),
-      object({{"length", quantity(Dimension::length, not_negative()),
-               "reference arc length from the beam's start"},
-              {"fraction", quantity(Dimension::number, {.lower = 0, .upper = 1}),
-               "fraction of the beam's reference length"},
-              {"near", point(), "the place of the drawn axis nearest to this point"},
-              {"within", quantity(Dimension::length, not_negative()),
-               "greatest distance of that point from the axis; 1 % of the beam's length when omitted", false,
-               "near"}},
-             {{{"length", "fraction", "near"}, required}}));
 }
 
 Shape axis() {
@@ -270,179 +241,6 @@ Shape beam() {
       {{{"tension", "unstressed_length"}, false}});
 }
 
-Shape load() {
-  const Shape moves =
-      object({{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "speed along the beam", required}});
-  return object(
-      {{"beam", name(), "the loaded beam", required},
-       {"at", place(), "where the force or moment acts"},
-       {"force", vector(Dimension::force, plausible(-1e12, 1e12)), "point force, fixed in space", false,
-        "at"},
-       {"moment", vector(Dimension::moment, plausible(-1e12, 1e12)), "point moment", false, "at"},
-       {"force_per_length", vector(Dimension::force_per_length, plausible(-1e12, 1e12)),
-        "per metre of reference arc length"},
-       {"torque_per_length", quantity(Dimension::torque_per_length, plausible(-1e12, 1e12)),
-        "about the tangent of a beam with torsion, per metre of reference arc length"},
-       {"offset", offset(),
-        "[x, y] of where the force acts, from the axis along the axes of the section of a beam with torsion",
-        false, "force"},
-       {"follower", boolean(), "force or moment turns with the section; false when omitted", false, "at"},
-       {"moves", moves, "a force that moves along the beam", false, "force"},
-       {"time", table(Dimension::number, {.lower = -1e12, .upper = 1e12}),
-        "factor over time, linear between rows, constant outside"}},
-      {{{"force", "moment", "force_per_length", "torque_per_length"}, required},
-       {{"at", "force_per_length", "torque_per_length"}, false}});
-}
-
-Shape support() {
-  return object(
-      {{"beam", name(), "the supported beam", required},
-       {"at", place(), "where", required},
-       {"type", choice({"clamped", "pinned", "fork", "guided"}),
-        "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
-        "position and roll of a beam with torsion; guided: the position but along `direction`, where it is free",
-        required},
-       {"direction", vector(Dimension::number), "of a guided support: where it is free"},
-       {"force", quantity(Dimension::force, plausible(-1e12, 1e12)),
-        "of a guided support: pulls along `direction`, as a weight over a pulley does; 0 when omitted", false,
-        "direction"},
-       {"mass", quantity(Dimension::mass, plausible(0, 1e12)),
-        "of a guided support: the inertia of what pulls it; 0 when omitted", false, "direction"},
-       {"axis", vector(Dimension::number),
-        "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"},
-       {"name", name(), "heads the columns of its reaction"},
-       {"motion", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-        "moves the support from its drawn place: rows [time, dx, dy, dz], smooth between rows, at rest at the first "
-        "and the last"}});
-}
-
-Shape friction() {
-  const Range force = plausible(0, 1e12);
-  return object(
-      {{"coefficient",
-        quantity(Dimension::number,
-                 {.lower = 0, .upper = 10, .reason = "a coefficient of friction has no unit"}),
-        "of sliding: friction over the force across the beam; 0 when omitted"},
-       {"static",
-        quantity(Dimension::number,
-                 {.lower = 0, .upper = 10, .reason = "a coefficient of friction has no unit"}),
-        "the same of a body that sticks, at least `coefficient`, which it is when omitted"},
-       {"law", choice({"coulomb", "capstan"}),
-        "at the kink of a discontinuous slope: coulomb: of the force across the bisector; capstan: tensions of up to "
-        "exp(coefficient times angle); coulomb when omitted"},
-       {"force", either(quantity(Dimension::force, force), table(Dimension::force, force)),
-        "of a brake or a seal, whatever presses on the beam, or that over time; 0 when omitted"},
-       {"viscous", quantity(Dimension::damping, plausible(0, 1e16)),
-        "force over sliding velocity; 0 when omitted"},
-       {"stick_stiffness", quantity(Dimension::force_per_length, plausible(1e-9, 1e16)),
-        "of a body that sticks; when omitted that with which it vibrates at 100 Hz"}});
-}
-
-Shape sliding_joint() {
-  const Shape motion =
-      object({{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
-              {"table", table(Dimension::length), "reference arc length over time"}},
-             {{{"speed", "table"}, required}});
-  return object(
-      {{"body", name(), "the sliding body", required},
-       {"beam", name(), "the beam it slides on", required},
-       {"at", place(), "where it starts", required},
-       {"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)),
-        "initial speed in reference arc length; when omitted that of the body by its joint on another beam, else 0"},
-       {"motion", motion, "prescribes the body's place, from `at` on"},
-       {"equilibrium", choice({"held", "free"}),
-        "where statics find the body: held at its `at`, or free, where it rests; when omitted free in a static "
-        "analysis, held at the start of a motion"},
-       {"release", quantity(Dimension::time, positive()),
-        "time of a motion until which the body is held where it is; free from the start when omitted"},
-       {"slope", choice({"continuous", "discontinuous"}),
-        "whether the beam may have a kink at the body; continuous when omitted"},
-       {"carried_as", choice({"node", "point"}),
-        "node: a node of the beam moves with the body, and elements beside it come and go; point: the body runs through "
-        "elements that stay; node when omitted"},
-       {"follows_section", boolean(),
-        "the body rolls with the section of a beam with torsion where it is; false when omitted"},
-       {"offset", offset(), "[x, y] of the body from the axis, along the axes of the section that it follows",
-        false, "follows_section"},
-       {"friction", friction(), "what resists the body that slides; nothing when omitted"},
-       {"at_beam_end", choice({"leave", "stop"}),
-        "what happens at the beam's end; leave when omitted; at a supported end a body stops"}},
-      {{{"speed", "motion", "release"}, false}});
-}
-
-Shape eyelet() {
-  return object(
-      {{"name", name(), "heads the columns of its force and of the place that is in it", required},
-       {"beam", name(), "the beam that runs through it", required},
-       {"at", place(), "which place of the beam is in it at the start", required},
-       {"position", point(),
-        "where it stands, a ring without mass and friction; where the beam is drawn there when omitted"},
-       {"slope", choice({"continuous", "discontinuous"}),
-        "whether the beam may have a kink in it; discontinuous when omitted"},
-       {"equilibrium", choice({"held", "free"}),
-        "where statics find the beam: with the place `at` in it, or free to run through it; free when omitted"},
-       {"at_beam_end", choice({"leave", "stop"}),
-        "what happens when the beam's end comes to it; leave when omitted"}});
-}
-
-Shape stop() {
-  return object(
-      {{"beam", name(), "the beam on which bodies meet it", required},
-       {"at", place(), "where it stands on the beam; without it, it is between the two `bodies`"},
-       {"bodies", array(name(), 1),
-        "those that it stops, when omitted all on the beam; or the two that it keeps apart"},
-       {"side", choice({"both", "before", "after"}),
-        "stops bodies that come from before it (lesser s), from after it, or both; both when omitted", false,
-        "at"},
-       {"gap", quantity(Dimension::length, not_negative()),
-        "least distance of the two bodies along the beam; 0 when omitted"},
-       {"restitution", quantity(Dimension::number, {.lower = 0, .upper = 1}),
-        "of a hard stop: speed after over speed before an impact; 0 when omitted"},
-       {"stiffness", quantity(Dimension::force_per_length, plausible(1e-9, 1e16)),
-        "of a buffer: force over how far it is pressed in"},
-       {"damping", quantity(Dimension::damping, plausible(0, 1e16)),
-        "of a buffer: force over the speed of that; 0 when omitted", false, "stiffness"}},
-      {{{"restitution", "stiffness"}, false}, {{"at", "gap"}, false}});
-}
-
-Shape beam_joint() {
-  return object({{"beams", array(name(), 2), "the beams that meet", required},
-                 {"type", choice({"hinged", "rigid"}), "rigid: the angle between them stays", required},
-                 {"at", object({{"near", point(), "a point near the joint", required}}),
-                  "where, if not at an end of one of them"},
-                 {"axis", vector(Dimension::number),
-                  "as drawn, of a hinge between beams with torsion, which turn about it alone"},
-                 {"name", name(), "heads the columns of its forces"}});
-}
-
-Shape connector() {
-  const Shape end = object({{"beam", name(), "a beam, at the place `at`"},
-                            {"at", place(), "where on that beam", false, "beam"},
-                            {"body", name(), "a body"},
-                            {"point", point(), "a point that stays where it is"}},
-                           {{{"beam", "body", "point"}, required}});
-  return object(
-      {{"name", name(), "heads the columns of its force and length", required},
-       {"from", end, "its first end", required},
-       {"to", end, "its second end", required},
-       {"type", choice({"spring", "tension-only", "compression-only", "rod"}),
-        "tension-only: a dropper or a rope, slack where it is shorter than its free length; compression-only: the "
-        "other way; rod: it keeps its length; spring when omitted"},
-       {"stiffness", quantity(Dimension::stiffness, plausible(0, 1e16)), "force per stretch"},
-       {"damping", quantity(Dimension::damping, plausible(0, 1e16)),
-        "force per speed of the stretch; 0 when omitted", false, "stiffness"},
-       {"length", either(choice({"drawn", "as-drawn"}), quantity(Dimension::length, plausible(0, 1e9))),
-        "free length, of a rod its length; drawn: the distance of its ends as drawn; as-drawn: that for which its "
-        "first end stands where it is drawn when all is in equilibrium; drawn when omitted"},
-       {"force", quantity(Dimension::force, plausible(-1e12, 1e12)),
-        "force at the start, in statics under the full loads, positive where it pulls, which gives the free "
-        "length"},
-       {"direction", vector(Dimension::number),
-        "it acts along this direction alone, on the distance along it from the first end to the second"},
-       {"end_masses", masses(), "[kg, kg] lumped at its ends, as of clamps; none when omitted"}},
-      {{{"length", "force"}, false}});
-}
-
 Shape analysis() {
   const Shape integrator = object(
       {{"type", choice({"generalized-alpha", "radau", "ida", "rk4"}),
@@ -504,14 +302,11 @@ Shape output() {
        {"parameter", choice({"free", "material"}),
         "parameter of the curves: free for the fewest control points, or reference arc length; free "
         "when omitted"}});
-  const Shape probe = object({{"name", name(), "heads the columns of the probe", required},
-                              {"beam", name(), "the probed beam", required},
-                              {"at", place(), "where", required}});
   return object(
       {{"every", quantity(Dimension::time, time_step()),
         "time between stored frames; a hundredth of `end_time` when omitted, but no less than `step`"},
        {"cad", cad, "deformed axes as CAD files"},
-       {"probes", short_array(probe), "points whose motion is stored"},
+       {"probes", short_array(probe_fields().shape()), "points whose motion is stored"},
        {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
        {"report", boolean(), "report.html; true when omitted"}});
 }
@@ -520,25 +315,6 @@ Shape air() {
   return object({{"density", quantity(Dimension::density, plausible(0, 1e4)), "mass per volume", required},
                  {"wind", vector(Dimension::speed, plausible(-1e3, 1e3)),
                   "velocity of the air, everywhere alike; still when omitted"}});
-}
-
-Shape body() {
-  return object(
-      {{"name", name(), "name of the body", required},
-       {"mass",
-        quantity(Dimension::mass,
-                 {.lower = 1e-9,
-                  .upper = 1e12,
-                  .reason = "a body without mass has no inertia; what lies outside is most likely in another "
-                            "unit"}),
-        "mass", required},
-       {"roll_inertia", quantity(Dimension::inertia, plausible(0, 1e16)),
-        "about the beam, of a body that follows its section; 0 when omitted"},
-       {"drag_area", quantity(Dimension::area, plausible(0, 1e6)),
-        "drag coefficient times area, of the drag of the `air`; 0 when omitted"},
-       {"position", point(), "where a body without a sliding joint starts"},
-       {"velocity", vector(Dimension::speed, plausible(-1e9, 1e9)),
-        "how fast it starts; at rest when omitted", false, "position"}});
 }
 
 }  // namespace
@@ -561,26 +337,27 @@ std::string Range::rule() const {
 }
 
 const Shape& case_keys() {
-  static const Shape shape = object(
-      {{"$schema", any_text(), "for editors; ignored"},
-       {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
-        "version of the case-file format", required},
-       {"name", any_text(), "title of the case; the file's name when omitted"},
-       {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
-        "acceleration of gravity; [0, 0, -9.81] when omitted"},
-       {"air", air(), "what drags on bodies with a `drag_area`; none when omitted"},
-       {"beams", array(beam(), 1), "the beams", required},
-       {"bodies", array(body()),
-        "point masses: each slides on a beam or on several that cross, or hangs on connectors"},
-       {"loads", short_array(load()), "forces and moments"},
-       {"supports", array(support()), "where beams are held"},
-       {"sliding_joints", array(sliding_joint()), "which body slides on which beam"},
-       {"eyelets", array(eyelet()), "fixed rings that beams run through"},
-       {"stops", array(stop()), "what sliding bodies come up against"},
-       {"joints", array(beam_joint()), "which beams are joined to each other"},
-       {"connectors", short_array(connector()), "springs, ropes and rods between bodies, beams and points"},
-       {"analysis", analysis(), "what to compute", required},
-       {"output", output(), "what to store"}});
+  static const Shape shape =
+      object({{"$schema", any_text(), "for editors; ignored"},
+              {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
+               "version of the case-file format", required},
+              {"name", any_text(), "title of the case; the file's name when omitted"},
+              {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
+               "acceleration of gravity; [0, 0, -9.81] when omitted"},
+              {"air", air(), "what drags on bodies with a `drag_area`; none when omitted"},
+              {"beams", array(beam(), 1), "the beams", required},
+              {"bodies", array(body_fields().shape()),
+               "point masses: each slides on a beam or on several that cross, or hangs on connectors"},
+              {"loads", short_array(load_fields().shape()), "forces and moments"},
+              {"supports", array(support_fields().shape()), "where beams are held"},
+              {"sliding_joints", array(sliding_joint_fields().shape()), "which body slides on which beam"},
+              {"eyelets", array(eyelet_fields().shape()), "fixed rings that beams run through"},
+              {"stops", array(stop_fields().shape()), "what sliding bodies come up against"},
+              {"joints", array(beam_joint_fields().shape()), "which beams are joined to each other"},
+              {"connectors", short_array(connector_fields().shape()),
+               "springs, ropes and rods between bodies, beams and points"},
+              {"analysis", analysis(), "what to compute", required},
+              {"output", output(), "what to store"}});
   return shape;
 }
 

@@ -119,6 +119,7 @@ void check_references(const Json& json, Findings& findings) {
     check_references(json, json, "loads", "", "beam", *beams, findings);
     check_references(json, json, "supports", "", "beam", *beams, findings);
     check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
+    check_references(json, json, "eyelets", "", "beam", *beams, findings);
     check_references(json, json, "stops", "", "beam", *beams, findings);
     check_references(json, part(json, "output"), "probes", "output", "beam", *beams, findings);
     check_connector_ends(json, "beam", *beams, findings);

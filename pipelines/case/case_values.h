@@ -85,20 +85,6 @@ Enum chosen(const Json& object, const char* key, const std::vector<std::pair<con
   return values.front().second;
 }
 
-inline Place read_place(const Json& object) {
-  Place place;
-  const Json& at = part(object, "at");
-  if (at.is_string())
-    place.kind = at == "end" ? Place::Kind::end : Place::Kind::start;
-  else if (has(at, "length"))
-    place = {.kind = Place::Kind::length, .value = number(at, "length")};
-  else if (has(at, "fraction"))
-    place = {.kind = Place::Kind::fraction, .value = number(at, "fraction")};
-  else if (has(at, "near"))
-    place = {.kind = Place::Kind::near, .point = vector(at, "near"), .within = optional_number(at, "within")};
-  return place;
-}
-
 /// Calls read(item, path) for every usable item of an array.
 template <class Read>
 void for_each_item(const Json& object, const char* key, const std::string& path, Read read) {

@@ -1,7 +1,5 @@
 #include "pipelines/case/host_keys.h"
 
-#include <algorithm>
-
 namespace nurbeam {
 
 namespace {
@@ -30,13 +28,10 @@ Shape law_shape() {
 const Shape& host_keys() {
   static const Shape shape = [] {
     Shape keys = case_keys();
-    for (const char* moved : {"supports", "sliding_joints"}) {
-      const auto key =
-          std::find_if(keys.keys.begin(), keys.keys.end(), [&](const Key& k) { return k.name == moved; });
-      key->shape.items[0].keys.push_back({"motion_law",
-                                          Shape{.kind = Shape::Kind::integer, .range = {.lower = 0}},
-                                          "number of the function that prescribes the motion"});
-      key->shape.items[0].alternatives.push_back({{"motion", "motion_law"}, false});
+    for (auto& [name, shape, description, required, needs] : keys.keys) {
+      if (name != "supports" && name != "sliding_joints") continue;
+      shape.items[0] = name == "supports" ? support_fields().shape(true) : sliding_joint_fields().shape(true);
+      shape.items[0].alternatives.push_back({{"motion", "motion_law"}, false});
     }
     keys.keys.push_back({"laws", Shape{.kind = Shape::Kind::array, .items = {law_shape()}},
                          "forces by functions of the program"});
@@ -50,7 +45,9 @@ std::vector<CaseLaw> read_laws(const Json& json) {
   for_each_item(json, "laws", "", [&](const Json& item, const std::string& path) {
     CaseLaw law{.path = path, .points = {}, .spatial = flag(item, "spatial")};
     for_each_item(item, "points", path, [&](const Json& point, const std::string& point_path) {
-      law.points.push_back({point_path, text(point, "body"), text(point, "beam"), read_place(point)});
+      CaseLawPoint acts{point_path, text(point, "body"), text(point, "beam"), {}};
+      if (has(point, "at")) take(point["at"], acts.at);
+      law.points.push_back(std::move(acts));
     });
     laws.push_back(std::move(law));
   });

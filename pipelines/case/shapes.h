@@ -62,4 +62,32 @@ inline Shape table_over_length(Dimension dimension, Range range) {
       .kind = Kind::table, .dimension = dimension, .range = std::move(range), .argument = Dimension::length};
 }
 
+/// A point in the world.
+inline Shape point() { return vector(Dimension::length, plausible(-1e9, 1e9)); }
+/// Of a point of a section.
+inline Shape offset() {
+  Shape shape = array(quantity(Dimension::length, plausible(-1e4, 1e4)), 2);
+  shape.most_items = 2;
+  return shape;
+}
+/// A number, or that over time.
+inline Shape constant_or_table(Dimension dimension, Range range) {
+  return either(quantity(dimension, range), table(dimension, range));
+}
+
+/// A place of a beam.
+inline Shape place() {
+  return either(
+      choice({"start", "end"}),
+      object({{"length", quantity(Dimension::length, not_negative()),
+               "reference arc length from the beam's start"},
+              {"fraction", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+               "fraction of the beam's reference length"},
+              {"near", point(), "the place of the drawn axis nearest to this point"},
+              {"within", quantity(Dimension::length, not_negative()),
+               "greatest distance of that point from the axis; 1 % of the beam's length when omitted", false,
+               "near"}},
+             {{{"length", "fraction", "near"}, required}}));
+}
+
 }  // namespace nurbeam::shapes

@@ -1,0 +1,96 @@
+#pragma once
+#include "fem/structure/connector.h"
+#include "pipelines/case/fields.h"
+
+namespace nurbeam {
+
+/// What a connector is fastened to: one of these.
+struct CaseConnectorEnd {
+  std::string path, beam, body;
+  Place at = {};                              ///< on the beam
+  std::optional<Eigen::Vector3d> point = {};  ///< [m]
+};
+
+struct CaseConnector {
+  std::string path, name;
+  std::array<CaseConnectorEnd, 2> ends;
+  ConnectorType type = ConnectorType::spring;
+  double stiffness = 0, damping = 0;  ///< [N/m], [N s/m]
+  ConnectorLength length_rule = ConnectorLength::given;
+  std::optional<double> length = {};  ///< where it is given; else that of the drawing [m]
+  double force = 0;                   ///< with ConnectorLength::force [N]
+  std::optional<Eigen::Vector3d> direction = {};
+  std::array<double, 2> end_masses = {0, 0};  ///< [kg]
+};
+
+inline Fields<CaseConnectorEnd> connector_end_fields() {
+  using namespace shapes;
+  using E = CaseConnectorEnd;
+  return {{
+              field(&E::beam, "beam", name(), "a beam, at the place `at`"),
+              field(&E::at, "at", place(), "where on that beam").beside("beam"),
+              field(&E::body, "body", name(), "a body"),
+              field(&E::point, "point", point(), "a point that stays where it is"),
+          },
+          {{{"beam", "body", "point"}, required}}};
+}
+
+inline Fields<CaseConnector> connector_fields() {
+  using namespace shapes;
+  using C = CaseConnector;
+  const auto end = [](int i) {
+    return [i](const Json& json, const std::string& path, C& connector, Findings& findings) {
+      connector.ends[i].path = path;
+      connector_end_fields().read(json, path, connector.ends[i], findings);
+    };
+  };
+  Shape masses = array(quantity(Dimension::mass, plausible(0, 1e12)), 2);
+  masses.most_items = 2;
+  return {
+      {
+          field(&C::name, "name", name(), "heads the columns of its force and length").needed(),
+          field_by<C>("from", connector_end_fields().shape(), "its first end", end(0)).needed(),
+          field_by<C>("to", connector_end_fields().shape(), "its second end", end(1)).needed(),
+          choice_field(&C::type, "type",
+                       {{"spring", ConnectorType::spring},
+                        {"tension-only", ConnectorType::tension_only},
+                        {"compression-only", ConnectorType::compression_only},
+                        {"rod", ConnectorType::rod}},
+                       "tension-only: a dropper or a rope, slack where it is shorter than its free length; "
+                       "compression-only: the other way; rod: it keeps its length")
+              .otherwise("spring"),
+          field(&C::stiffness, "stiffness", quantity(Dimension::stiffness, plausible(0, 1e16)),
+                "force per stretch"),
+          field(&C::damping, "damping", quantity(Dimension::damping, plausible(0, 1e16)),
+                "force per speed of the stretch")
+              .otherwise("0")
+              .beside("stiffness"),
+          field_by<C>(
+              "length", either(choice({"drawn", "as-drawn"}), quantity(Dimension::length, plausible(0, 1e9))),
+              "free length, of a rod its length; drawn: the distance of its ends as drawn; as-drawn: that "
+              "for which its first end stands where it is drawn when all is in equilibrium; drawn when "
+              "omitted",
+              [](const Json& json, const std::string&, C& connector, Findings&) {
+                if (is_number(json))
+                  take(json, connector.length);
+                else if (text_of_choice(json) == "as-drawn")
+                  connector.length_rule = ConnectorLength::as_drawn;
+              }),
+          field_by<C>(
+              "force", quantity(Dimension::force, plausible(-1e12, 1e12)),
+              "force at the start, in statics under the full loads, positive where it pulls, which gives "
+              "the free length",
+              [](const Json& json, const std::string&, C& connector, Findings&) {
+                take(json, connector.force);
+                connector.length_rule = ConnectorLength::force;
+              }),
+          field(
+              &C::direction, "direction", vector(Dimension::number),
+              "it acts along this direction alone, on the distance along it from the first end to the second"),
+          field(&C::end_masses, "end_masses", masses,
+                "[kg, kg] lumped at its ends, as of clamps; none when omitted"),
+      },
+      {{{"length", "force"}, false}}};
+}
+
+}  // namespace nurbeam

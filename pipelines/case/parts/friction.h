@@ -1,0 +1,34 @@
+#pragma once
+#include "fem/structure/friction.h"
+#include "pipelines/case/fields.h"
+
+namespace nurbeam {
+
+inline Fields<Friction> friction_fields() {
+  using namespace shapes;
+  using F = Friction;
+  const Range coefficient{.lower = 0, .upper = 10, .reason = "a coefficient of friction has no unit"};
+  return {{
+      field(&F::coefficient, "coefficient", quantity(Dimension::number, coefficient),
+            "of sliding: friction over the force across the beam")
+          .otherwise("0"),
+      field(&F::static_coefficient, "static", quantity(Dimension::number, coefficient),
+            "the same of a body that sticks, at least `coefficient`, which it is when omitted"),
+      choice_field(
+          &F::law, "law", {{"coulomb", F::Law::coulomb}, {"capstan", F::Law::capstan}},
+          "at the kink of a discontinuous slope: coulomb: of the force across the bisector; capstan: tensions "
+          "of up to exp(coefficient times angle)")
+          .otherwise("coulomb"),
+      field(&F::force, "force", constant_or_table(Dimension::force, plausible(0, 1e12)),
+            "of a brake or a seal, whatever presses on the beam, or that over time")
+          .otherwise("0"),
+      field(&F::viscous, "viscous", quantity(Dimension::damping, plausible(0, 1e16)),
+            "force over sliding velocity")
+          .otherwise("0"),
+      field(&F::stick_stiffness, "stick_stiffness",
+            quantity(Dimension::force_per_length, plausible(1e-9, 1e16)),
+            "of a body that sticks; when omitted that with which it vibrates at 100 Hz"),
+  }};
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,82 @@
+#pragma once
+#include "fem/structure/structure.h"
+#include "pipelines/case/parts/friction.h"
+#include "pipelines/case/parts/support.h"
+
+namespace nurbeam {
+
+struct CaseSlidingJoint {
+  std::string path;
+  std::string body, beam;
+  Place at;
+  std::optional<double> speed;         ///< initial [m/s]
+  std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
+  TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
+  std::optional<double> release;       ///< held until then [s]
+  bool continuous_slope = true;
+  bool leave_at_end = true;  ///< false: stop
+  bool follows_section = false;
+  std::optional<Eigen::Vector2d> offset = {};  ///< in the section that it follows [m]
+  StaticPlace rest = StaticPlace::automatic;
+  std::optional<Friction> friction = {};
+  std::optional<int> motion_law = {};  ///< the function of a program that prescribes it
+  bool as_point = false;               ///< the mesh stays as it is where the body is
+};
+
+inline Fields<CaseSlidingJoint> sliding_joint_fields() {
+  using namespace shapes;
+  using J = CaseSlidingJoint;
+  const Shape motion =
+      object({{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
+              {"table", table(Dimension::length), "reference arc length over time"}},
+             {{{"speed", "table"}, required}});
+  Fields<J> fields{
+      {
+          field(&J::body, "body", name(), "the sliding body").needed(),
+          field(&J::beam, "beam", name(), "the beam it slides on").needed(),
+          field(&J::at, "at", place(), "where it starts").needed(),
+          field(
+              &J::speed, "speed", quantity(Dimension::speed, plausible(-1e9, 1e9)),
+              "initial speed in reference arc length; when omitted that of the body by its joint on another beam, "
+              "else 0"),
+          field_by<J>("motion", motion, "prescribes the body's place, from `at` on",
+                      [](const Json& json, const std::string&, J& joint, Findings&) {
+                        if (const Json* speed = value_under(json, "speed")) take(*speed, joint.motion_speed);
+                        if (const Json* rows = value_under(json, "table")) take(*rows, joint.motion_table);
+                      }),
+          choice_field(
+              &J::rest, "equilibrium", {{"held", StaticPlace::held}, {"free", StaticPlace::free}},
+              "where statics find the body: held at its `at`, or free, where it rests; when omitted free in "
+              "a static analysis, held at the start of a motion"),
+          field(
+              &J::release, "release", quantity(Dimension::time, positive()),
+              "time of a motion until which the body is held where it is; free from the start when omitted"),
+          choice_field(&J::continuous_slope, "slope", {{"continuous", true}, {"discontinuous", false}},
+                       "whether the beam may have a kink at the body")
+              .otherwise("continuous"),
+          choice_field(
+              &J::as_point, "carried_as", {{"node", false}, {"point", true}},
+              "node: a node of the beam moves with the body, and elements beside it come and go; point: the "
+              "body runs through elements that stay")
+              .otherwise("node"),
+          field(&J::follows_section, "follows_section", boolean(),
+                "the body rolls with the section of a beam with torsion where it is")
+              .otherwise("false"),
+          field(&J::offset, "offset", offset(),
+                "[x, y] of the body from the axis, along the axes of the section that it follows")
+              .beside("follows_section"),
+          field_by<J>("friction", friction_fields().shape(),
+                      "what resists the body that slides; nothing when omitted",
+                      [](const Json& json, const std::string& path, J& joint, Findings& findings) {
+                        friction_fields().read(json, path, joint.friction.emplace(), findings);
+                      }),
+          choice_field(&J::leave_at_end, "at_beam_end", {{"leave", true}, {"stop", false}},
+                       "what happens at the beam's end; leave when omitted; at a supported end a body stops"),
+          field(&J::motion_law, "motion_law", integer(from(0)), motion_law_help),
+      },
+      {{{"speed", "motion", "release"}, false}}};
+  fields.rows.back().in_files = false;
+  return fields;
+}
+
+}  // namespace nurbeam

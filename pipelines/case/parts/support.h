@@ -1,0 +1,60 @@
+#pragma once
+#include "pipelines/case/fields.h"
+
+namespace nurbeam {
+
+struct CaseSupport {
+  enum class Type { clamped, pinned, fork, guided } type = Type::pinned;
+  std::string name;  ///< heads the columns of its reaction; may be empty
+  std::string path;
+  std::string beam;
+  Place at;
+  std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
+  std::optional<Eigen::Vector3d> axis = {};         ///< of a hinge
+  std::optional<Eigen::Vector3d> direction = {};    ///< of a guided one: where it is free
+  double force = 0, mass = 0;                       ///< along it [N], [kg]
+  std::optional<int> motion_law = {};               ///< the function of a program that prescribes it
+};
+
+/// A function of the program that has made the case, by its number.
+inline constexpr const char* motion_law_help = "number of the function that prescribes the motion";
+
+inline Fields<CaseSupport> support_fields() {
+  using namespace shapes;
+  using S = CaseSupport;
+  Fields<S> fields{{
+      field(&S::beam, "beam", name(), "the supported beam").needed(),
+      field(&S::at, "at", place(), "where").needed(),
+      choice_field(
+          &S::type, "type",
+          {{"clamped", S::Type::clamped},
+           {"pinned", S::Type::pinned},
+           {"fork", S::Type::fork},
+           {"guided", S::Type::guided}},
+          "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
+          "position and roll of a beam with torsion; guided: the position but along `direction`, where it is "
+          "free")
+          .needed(),
+      field(&S::direction, "direction", vector(Dimension::number), "of a guided support: where it is free"),
+      field(&S::force, "force", quantity(Dimension::force, plausible(-1e12, 1e12)),
+            "of a guided support: pulls along `direction`, as a weight over a pulley does")
+          .otherwise("0")
+          .beside("direction"),
+      field(&S::mass, "mass", quantity(Dimension::mass, plausible(0, 1e12)),
+            "of a guided support: the inertia of what pulls it")
+          .otherwise("0")
+          .beside("direction"),
+      field(&S::axis, "axis", vector(Dimension::number),
+            "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"),
+      field(&S::name, "name", name(), "heads the columns of its reaction"),
+      field(
+          &S::motion, "motion", vector_table(Dimension::length, plausible(-1e9, 1e9)),
+          "moves the support from its drawn place: rows [time, dx, dy, dz], smooth between rows, at rest at the "
+          "first and the last"),
+      field(&S::motion_law, "motion_law", integer(from(0)), motion_law_help),
+  }};
+  fields.rows.back().in_files = false;
+  return fields;
+}
+
+}  // namespace nurbeam
