@@ -25,8 +25,10 @@
 #include "pipelines/model/eyelets.h"
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/law_points.h"
+#include "pipelines/model/loads.h"
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
+#include "pipelines/model/supports.h"
 #include "pipelines/model/why_torsion.h"
 
 namespace nurbeam {
@@ -252,136 +254,6 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
           .home = {}};
 }
 
-// A motion begins where the beam is drawn, unless the run begins with a search for rest.
-std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const CaseSupport& support,
-                                           const ModelFrame& frame, Findings& findings) {
-  if (support.motion.empty()) return {};
-  std::vector<DisplacementTable::Row> rows;
-  for (const auto& [time, displacement] : support.motion)
-    rows.emplace_back(time, frame.direction_to_local(displacement));
-  const DisplacementTable motion(std::move(rows));
-  const double start = motion.at(0).value.norm();
-  const CaseAnalysis& analysis = resolved.analysis;
-  if (start > 0 && analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
-    findings.error(
-        support.path + ".motion",
-        "is " + text_of(start) +
-            " m from the drawn place at time 0, but the run starts as drawn; begin with [0, 0, 0, 0], "
-            "or start with \"initial\": \"equilibrium\"");
-  return motion;
-}
-
-// Makes a support guided, with what pulls it.
-void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
-  support.guide = frame.direction_to_local(from.direction->stableNormalized());
-  if (from.force != 0)
-    model.forces.push_back(PointLoad{
-        {.beam = support.beam, .s = support.s, .value = from.force * *support.guide, .permanent = true}});
-  if (from.mass > 0)
-    model.forces.push_back(
-        PlaceMass{.beam = support.beam, .s = support.s, .mass = from.mass, .weighs = false});
-}
-
-// Adds the supports of one beam; returns their places in reference arc length [m].
-std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam,
-                                 const ModelFrame& frame, BeamModel& model, Findings& findings) {
-  const double same = same_place * beam.measured.length();
-  std::vector<double> places;
-  std::vector<std::string> paths;
-  for (const CaseSupport& support : resolved.supports) {
-    if (resolved.beam_index(support.beam) != b) continue;
-    const double s = place_on(beam, support.at, support.path, findings);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (std::abs(places[i] - s) < same)
-        findings.error(support.path,
-                       "holds beam \"" + support.beam + "\" at s = " + text_of(s) + " m, where " + paths[i] +
-                           " already holds it; keep one of them (\"clamped\" holds what \"pinned\" holds)");
-    places.push_back(s);
-    paths.push_back(support.path);
-    const bool fork = support.type == CaseSupport::Type::fork;
-    model.constraints.push_back(Support{b,
-                                        beam.material_coordinate(s),
-                                        support.type == CaseSupport::Type::clamped,
-                                        fork,
-                                        support.name,
-                                        motion_of(resolved, support, frame, findings),
-                                        {}});
-    Support& added = std::get<Support>(model.constraints.back());
-    if (support.axis) added.axis = frame.direction_to_local(*support.axis);
-    if (support.direction) add_guide(support, frame, added, model);
-  }
-  return places;
-}
-
-// The factor of a load over time; in load steps time is the load factor. What goes with it is the place of a
-// force that moves, which is there in full.
-TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
-  if (!load.time.empty() || load.moving_speed || analysis.load_factors.empty()) return load.time;
-  const double last = std::max(1.0, analysis.load_factors.back());
-  return {{0, 0}, {last, last}};
-}
-
-// That of a force or a moment at a place.
-LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, const Eigen::Vector3d& value,
-                          const CaseAnalysis& analysis, Findings& findings) {
-  const double s = beam.material_coordinate(place_on(beam, load.at, load.path, findings));
-  const double speed = load.moving_speed.value_or(0);
-  const bool at_start = s == 0, at_end = s == beam.curve.length();
-  if (!beam.curve.closed() && ((at_start && speed < 0) || (at_end && speed > 0)))
-    findings.warn(load.path + ".moves.speed", "is " + text_of(speed) +
-                                                  " m/s: the force leaves the beam at once and does "
-                                                  "nothing; it moves from the " +
-                                                  (at_start ? "start" : "end") + " into the beam with a " +
-                                                  (at_start ? "positive" : "negative") + " speed");
-  return {b,
-          s,
-          speed,
-          value,
-          load.follower,
-          time_of(load, analysis),
-          load.offset.value_or(Eigen::Vector2d::Zero())};
-}
-
-// A beam without torsion takes no moment along itself.
-void check_moment(const CaseLoad& load, const LoadAtPlace& moment, const DrawnBeam& beam,
-                  Findings& findings) {
-  const double along = moment.value.dot(beam.curve.tangent(moment.s));
-  if (std::abs(along) > 1e-9 * moment.value.norm())
-    findings.error(load.path + ".moment",
-                   "the moment has a component of " + text_of(along) +
-                       " N m along the beam, which has no torsion; leave only the part across it");
-}
-
-void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
-               BeamModel& model, std::vector<std::vector<int>>& forces_of_loads, Findings& findings) {
-  for (std::size_t i = 0; i < resolved.loads.size(); ++i) {
-    const CaseLoad& load = resolved.loads[i];
-    const int b = resolved.beam_index(load.beam);
-    const DrawnBeam& beam = beams[b];
-    forces_of_loads[resolved.load_numbers[i]].push_back(static_cast<int>(model.forces.size()));
-    switch (load.kind) {
-      case CaseLoad::Kind::force:
-        model.forces.push_back(PointLoad{
-            load_at_place(load, b, beam, frame.direction_to_local(load.value), resolved.analysis, findings)});
-        break;
-      case CaseLoad::Kind::moment: {
-        const LoadAtPlace moment =
-            load_at_place(load, b, beam, frame.moment_to_local(load.value), resolved.analysis, findings);
-        if (!resolved.beams[b].torsion) check_moment(load, moment, beam, findings);
-        model.forces.push_back(Moment{moment});
-        break;
-      }
-      case CaseLoad::Kind::force_per_length:
-        model.forces.push_back(
-            LineLoad{b, frame.direction_to_local(load.value), time_of(load, resolved.analysis)});
-        break;
-      case CaseLoad::Kind::torque_per_length:
-        model.forces.push_back(LineTorque{b, load.torque, time_of(load, resolved.analysis)});
-        break;
-    }
-  }
-}
-
 double mass_of(const BeamModel& model) {
   double mass = 0;
   for (const Beam& beam : model.beams) mass += beam.properties.mass_per_length * beam.curve.length();
@@ -453,18 +325,19 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
 
 // Adds supports and elements.
 void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
-                  const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model, Findings& findings) {
+                  const JoinedBeams& joined, BuiltModel& built, Findings& findings) {
   for (std::size_t b = 0; b < beams.size() && !findings.has_errors(); ++b) {
     const CaseBeam& from = resolved.beams[b];
     if (from.rigid) continue;
-    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], frame, model, findings);
+    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], built.frame, built.model,
+                                            built.motions, findings);
     held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
     const double same = same_place * beams[b].measured.length();
     for (const double s : connector_places(resolved, static_cast<int>(b), beams[b], findings))
       if (std::none_of(held.begin(), held.end(), [&](double t) { return std::abs(t - s) <= same; }))
         held.push_back(s);
-    model.beams[b].home =
-        divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), frame, findings);
+    built.model.beams[b].home =
+        divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), built.frame, findings);
   }
 }
 
@@ -530,14 +403,14 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (!like) check_proportions(resolved.beams, built.model, built.sources, findings);
   if (findings.has_errors()) return {};
   const JoinedBeams joined = join_beams(resolved, beams, built.frame, findings);
-  divide_beams(resolved, beams, joined, built.frame, built.model, findings);
+  divide_beams(resolved, beams, joined, built, findings);
   if (findings.has_errors()) return {};
   check_joined_supports(resolved, beams, joined, findings);
   if (findings.has_errors()) return {};
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
   built.loads.resize(case_file.loads.size());
   add_loads(resolved, beams, built.frame, built.model, built.loads, findings);
-  add_sliding_joints(resolved, beams, joined, built.frame, built.model, findings);
+  add_sliding_joints(resolved, beams, joined, built.frame, built.model, built.motions, findings);
   if (!findings.has_errors()) add_eyelets(resolved, beams, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
@@ -559,7 +432,6 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
     built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
   }
   for (const CaseLaw& law : resolved.laws) built.laws.push_back(law_points(law, resolved, beams, findings));
-  built.motions = laws_of_motion(resolved, built.model);
   built.inputs = files.inputs();
   built.import_seconds = files.seconds();
   if (findings.has_errors()) return {};

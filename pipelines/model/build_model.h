@@ -10,6 +10,7 @@
 #include "fem/motion/rest/adapted_mesh.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/beam_axis.h"
+#include "pipelines/model/law_of_motion.h"
 #include "pipelines/model/model_frame.h"
 #include "pipelines/model/section_outline.h"
 #include "pipelines/section/section_profile.h"
@@ -37,13 +38,6 @@ struct BeamSource {
   double drawn_bending = 0;  ///< energy that the drawing holds against the stress-free shape [J]
   std::string torsion;       ///< whether a beam in space has torsion, and why
   SectionOutline outline = {};
-};
-
-/// A motion that a function of the program prescribes.
-struct LawOfMotion {
-  std::string path;  ///< in the case
-  int function;
-  int joint = -1, constraint = -1;  ///< of the model: one of them, without that motion
 };
 
 /// A case as a model: everything resolved and in place.

@@ -28,19 +28,4 @@ std::vector<Grip> law_points(const CaseLaw& law, const ResolvedCase& resolved,
   return points;
 }
 
-std::vector<LawOfMotion> laws_of_motion(const ResolvedCase& resolved, const BeamModel& model) {
-  std::vector<LawOfMotion> motions;
-  for (std::size_t j = 0; j < resolved.sliding_joints.size(); ++j)
-    if (const CaseSlidingJoint& joint = resolved.sliding_joints[j]; joint.motion_law)
-      motions.push_back({joint.path, *joint.motion_law, static_cast<int>(j), -1});
-  int constraint = 0;  // supports come first, those of the first beam before those of the second
-  for (std::size_t b = 0; b < model.beams.size(); ++b)
-    for (const CaseSupport& support : resolved.supports) {
-      if (resolved.beam_index(support.beam) != static_cast<int>(b)) continue;
-      if (support.motion_law) motions.push_back({support.path, *support.motion_law, -1, constraint});
-      ++constraint;
-    }
-  return motions;
-}
-
 }  // namespace nurbeam

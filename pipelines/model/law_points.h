@@ -13,7 +13,4 @@ namespace nurbeam {
 std::vector<Grip> law_points(const CaseLaw& law, const ResolvedCase& resolved,
                              const std::vector<DrawnBeam>& beams, Findings& findings);
 
-/// The motions that functions prescribe, of a model that has its supports and sliding joints.
-std::vector<LawOfMotion> laws_of_motion(const ResolvedCase& resolved, const BeamModel& model);
-
 }  // namespace nurbeam

@@ -226,7 +226,7 @@ void share_speeds(const std::vector<CaseSlidingJoint>& from, const ModelFrame& f
 
 void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                         const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model,
-                        Findings& findings) {
+                        std::vector<LawOfMotion>& motions, Findings& findings) {
   if (resolved.analysis.is_explicit() && !resolved.sliding_joints.empty())
     findings.error(
         "analysis.integrator.type",
@@ -249,19 +249,19 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     const int b = resolved.beam_index(joint.beam);
     const ReferenceCurve& curve = beams[b].curve;
     const CaseAnalysis& analysis = resolved.analysis;
-    Rider added{0,
-                b,
-                place_on(beams[b], joint.at, joint.path, findings),
-                joint.speed.value_or(0),
-                std::nullopt,
-                analysis.type == CaseAnalysis::Type::dynamic ? joint.release : std::nullopt,
-                joint.continuous_slope,
-                joint.leave_at_end,
-                joint.follows_section,
-                joint.offset.value_or(Eigen::Vector2d::Zero()),
-                joint.rest,
-                analysis.has_modes() ? std::nullopt : joint.friction,
-                joint.as_point};
+    Rider added{.body = 0,
+                .beam = b,
+                .s = place_on(beams[b], joint.at, joint.path, findings),
+                .speed = joint.speed.value_or(0),
+                .motion = {},
+                .release = analysis.type == CaseAnalysis::Type::dynamic ? joint.release : std::nullopt,
+                .continuous_slope = joint.continuous_slope,
+                .leave_at_end = joint.leave_at_end,
+                .follows_section = joint.follows_section,
+                .offset = joint.offset.value_or(Eigen::Vector2d::Zero()),
+                .rest = joint.rest,
+                .friction = analysis.has_modes() ? std::nullopt : joint.friction,
+                .as_point = joint.as_point};
     if (joint.as_point && !joint.continuous_slope)
       findings.error(
           joint.path + ".carried_as",
@@ -283,6 +283,10 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
       warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     warn_of_stiff_hinge(joint, added, model, findings);
     warn_of_speed(joint, added, model, findings);
+    if (joint.motion_law)
+      motions.push_back({.path = joint.path,
+                         .function = *joint.motion_law,
+                         .rider = static_cast<int>(model.riders.size())});
     model.riders.push_back(std::move(added));
   }
   check_apart(resolved.sliding_joints, model, findings);

@@ -1,0 +1,84 @@
+#include "pipelines/model/loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+// The factor of a load over time; in load steps time is the load factor. What goes with it is the place of a
+// force that moves, which is there in full.
+TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
+  if (!load.time.empty() || load.moving_speed || analysis.load_factors.empty()) return load.time;
+  const double last = std::max(1.0, analysis.load_factors.back());
+  return {{0, 0}, {last, last}};
+}
+
+// That of a force or a moment at a place.
+LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, const Eigen::Vector3d& value,
+                          const CaseAnalysis& analysis, Findings& findings) {
+  const double s = beam.material_coordinate(place_on(beam, load.at, load.path, findings));
+  const double speed = load.moving_speed.value_or(0);
+  const bool at_start = s == 0, at_end = s == beam.curve.length();
+  if (!beam.curve.closed() && ((at_start && speed < 0) || (at_end && speed > 0)))
+    findings.warn(load.path + ".moves.speed", "is " + text_of(speed) +
+                                                  " m/s: the force leaves the beam at once and does "
+                                                  "nothing; it moves from the " +
+                                                  (at_start ? "start" : "end") + " into the beam with a " +
+                                                  (at_start ? "positive" : "negative") + " speed");
+  return {b,
+          s,
+          speed,
+          value,
+          load.follower,
+          time_of(load, analysis),
+          load.offset.value_or(Eigen::Vector2d::Zero())};
+}
+
+// A beam without torsion takes no moment along itself.
+void check_moment(const CaseLoad& load, const LoadAtPlace& moment, const DrawnBeam& beam,
+                  Findings& findings) {
+  const double along = moment.value.dot(beam.curve.tangent(moment.s));
+  if (std::abs(along) > 1e-9 * moment.value.norm())
+    findings.error(load.path + ".moment",
+                   "the moment has a component of " + text_of(along) +
+                       " N m along the beam, which has no torsion; leave only the part across it");
+}
+
+}  // namespace
+
+void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
+               BeamModel& model, std::vector<std::vector<int>>& forces_of_loads, Findings& findings) {
+  for (std::size_t i = 0; i < resolved.loads.size(); ++i) {
+    const CaseLoad& load = resolved.loads[i];
+    const int b = resolved.beam_index(load.beam);
+    const DrawnBeam& beam = beams[b];
+    forces_of_loads[resolved.load_numbers[i]].push_back(static_cast<int>(model.forces.size()));
+    switch (load.kind) {
+      case CaseLoad::Kind::force:
+        model.forces.push_back(PointLoad{
+            load_at_place(load, b, beam, frame.direction_to_local(load.value), resolved.analysis, findings)});
+        break;
+      case CaseLoad::Kind::moment: {
+        const LoadAtPlace moment =
+            load_at_place(load, b, beam, frame.moment_to_local(load.value), resolved.analysis, findings);
+        if (!resolved.beams[b].torsion) check_moment(load, moment, beam, findings);
+        model.forces.push_back(Moment{moment});
+        break;
+      }
+      case CaseLoad::Kind::force_per_length:
+        model.forces.push_back(
+            LineLoad{b, frame.direction_to_local(load.value), time_of(load, resolved.analysis)});
+        break;
+      case CaseLoad::Kind::torque_per_length:
+        model.forces.push_back(LineTorque{b, load.torque, time_of(load, resolved.analysis)});
+        break;
+    }
+  }
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,17 @@
+#pragma once
+#include <vector>
+
+#include "fem/model/beam_model.h"
+#include "pipelines/diagnostics/findings.h"
+#include "pipelines/model/drawn_beam.h"
+#include "pipelines/model/model_frame.h"
+#include "pipelines/model/resolved_case.h"
+
+namespace nurbeam {
+
+/// Adds the loads of a case; `forces_of_loads` takes, for each load of the case, the numbers of its forces in
+/// the model.
+void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
+               BeamModel& model, std::vector<std::vector<int>>& forces_of_loads, Findings& findings);
+
+}  // namespace nurbeam

@@ -1,0 +1,79 @@
+#include "pipelines/model/supports.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+
+namespace {
+
+// A motion begins where the beam is drawn, unless the run begins with a search for rest.
+std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const CaseSupport& support,
+                                           const ModelFrame& frame, Findings& findings) {
+  if (support.motion.empty()) return {};
+  std::vector<DisplacementTable::Row> rows;
+  for (const auto& [time, displacement] : support.motion)
+    rows.emplace_back(time, frame.direction_to_local(displacement));
+  const DisplacementTable motion(std::move(rows));
+  const double start = motion.at(0).value.norm();
+  const CaseAnalysis& analysis = resolved.analysis;
+  if (start > 0 && analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
+    findings.error(
+        support.path + ".motion",
+        "is " + text_of(start) +
+            " m from the drawn place at time 0, but the run starts as drawn; begin with [0, 0, 0, 0], "
+            "or start with \"initial\": \"equilibrium\"");
+  return motion;
+}
+
+// Makes a support guided, with what pulls it.
+void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
+  support.guide = frame.direction_to_local(from.direction->stableNormalized());
+  if (from.force != 0)
+    model.forces.push_back(PointLoad{
+        {.beam = support.beam, .s = support.s, .value = from.force * *support.guide, .permanent = true}});
+  if (from.mass > 0)
+    model.forces.push_back(
+        PlaceMass{.beam = support.beam, .s = support.s, .mass = from.mass, .weighs = false});
+}
+
+}  // namespace
+
+std::vector<double> add_supports(const ResolvedCase& resolved, int b, const DrawnBeam& beam,
+                                 const ModelFrame& frame, BeamModel& model, std::vector<LawOfMotion>& motions,
+                                 Findings& findings) {
+  const double same = same_place * beam.measured.length();
+  std::vector<double> places;
+  std::vector<std::string> paths;
+  for (const CaseSupport& support : resolved.supports) {
+    if (resolved.beam_index(support.beam) != b) continue;
+    const double s = place_on(beam, support.at, support.path, findings);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (std::abs(places[i] - s) < same)
+        findings.error(support.path,
+                       "holds beam \"" + support.beam + "\" at s = " + text_of(s) + " m, where " + paths[i] +
+                           " already holds it; keep one of them (\"clamped\" holds what \"pinned\" holds)");
+    places.push_back(s);
+    paths.push_back(support.path);
+    if (support.motion_law)
+      motions.push_back({.path = support.path,
+                         .function = *support.motion_law,
+                         .constraint = static_cast<int>(model.constraints.size())});
+    model.constraints.push_back(Support{.beam = b,
+                                        .s = beam.material_coordinate(s),
+                                        .clamped = support.type == CaseSupport::Type::clamped,
+                                        .fork = support.type == CaseSupport::Type::fork,
+                                        .name = support.name,
+                                        .motion = motion_of(resolved, support, frame, findings)});
+    Support& added = std::get<Support>(model.constraints.back());
+    if (support.axis) added.axis = frame.direction_to_local(*support.axis);
+    if (support.direction) add_guide(support, frame, added, model);
+  }
+  return places;
+}
+
+}  // namespace nurbeam
