@@ -37,6 +37,7 @@
 #include "cad_import/program/part_names.h"
 #include "cad_import/program/restated_curves.h"
 #include "cad_import/program/shape_curves.h"
+#include "cad_import/program/sound_iges.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/supplemental_geometry.h"
@@ -172,15 +173,16 @@ void compare_units(const IgesGlobal& ours, const IGESData_GlobalSection& theirs)
                            " m; correct the Global section (Hollerith counts, parameters 14 and 15)");
 }
 
-void read_iges(const std::string& content, double tolerance, ImportReport& report) {
-  const IgesGlobal global = parse_iges_global(content);
+void read_iges(const std::string& given, double tolerance, ImportReport& report) {
+  const IgesGlobal global = parse_iges_global(given);
   report_unit(global.unit_in_metres, report);
   if (global.scale != 1) {
     add_diagnostic(report, Severity::note, "",
                    "the model space scale " + text_of(global.scale) + " (drawing scale) is not applied");
   }
-  if (const auto miscounted = miscounted_lines(content))
+  if (const auto miscounted = miscounted_lines(given))
     add_diagnostic(report, Severity::warning, "", *miscounted);
+  const std::string content = sound_iges(given, global, report);
   start_iges();
   // Only after Init: before it, the parameter is unknown and curves are split where they are only C0.
   if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0))
