@@ -37,8 +37,7 @@ void Remarks::say(Severity severity, const Entity& entity, const std::string& me
 }
 
 void Remarks::refuse(const Entity& entity, const std::string& why) {
-  refused_.insert(entity.get());
-  warn(entity, "skipped with all that is made of it: " + why);
+  if (refused_.insert(entity.get()).second) warn(entity, "skipped with all that is made of it: " + why);
 }
 
 }  // namespace nurbeam

@@ -17,8 +17,10 @@ class Remarks {
 
   Remarks(const Interface_InterfaceModel& model, ImportReport& report) : model_(model), report_(report) {}
 
-  /// Does it; whether that went well: else the entity is refused, with a warning.
+  /// Does it; whether that went well: else the entity is refused, with a warning, unless it was before.
   bool attempt(const Entity& entity, const std::function<void()>& restate);
+  void refuse(const Entity& entity, const std::string& why);
+  void refuse_silently(const Entity& entity) { refused_.insert(entity.get()); }
   void warn(const Entity& entity, const std::string& message) { say(Severity::warning, entity, message); }
   void note(const Entity& entity, const std::string& message) { say(Severity::note, entity, message); }
   /// Counts a repair: what was done to entities of one kind, and by how much [m].
@@ -29,7 +31,6 @@ class Remarks {
 
  private:
   void say(Severity severity, const Entity& entity, const std::string& message);
-  void refuse(const Entity& entity, const std::string& why);
   std::string label_of(const Entity& entity) const;
 
   const Interface_InterfaceModel& model_;

@@ -6,6 +6,10 @@
 
 namespace nurbeam {
 
+/// What is done to knots, in every format.
+inline constexpr const char* repaired_knots =
+    "knots that decrease, or differ at an end, in their last digits are one";
+
 /// What was repaired in a file, by the rule of report/leniency.h: one note for each kind.
 class Repairs {
  public:

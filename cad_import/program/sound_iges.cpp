@@ -36,8 +36,11 @@ std::string real_text(double value) {
 
 class SoundIges {
  public:
-  SoundIges(const std::string& content, const IgesGlobal& global, ImportReport& report)
-      : records_(content, global.parameter_delimiter, global.record_delimiter), report_(report) {}
+  SoundIges(const std::string& content, const IgesGlobal& global, const KeptEntities& kept,
+            ImportReport& report)
+      : records_(content, global.parameter_delimiter, global.record_delimiter), kept_(kept), report_(report) {
+    kept.tell(static_cast<int>(records_.all().size()));
+  }
 
   std::string text() {
     for (std::size_t i = 0; i < records_.all().size(); ++i) check(i);
@@ -71,6 +74,10 @@ class SoundIges {
 
   void check(std::size_t i) {
     if (record(i).type == null_entity) left_out_.insert(i);
+    if (!kept_.contain(static_cast<int>(i))) {
+      if (kept_.without.contains(static_cast<int>(i))) warn(i, crashed_on);
+      return leave_out(i);
+    }
     std::vector<std::string> values = records_.values(i);
     if (const auto defect = values_defect(record(i), values)) {
       warn(i, "damaged, and left out: " + *defect + "; export or copy it again");
@@ -90,8 +97,7 @@ class SoundIges {
     for (std::size_t k = 0; k < count; ++k) knots.push_back(*iges_number(values[6 + k]));
     if (const double change = repair_knots(knots, degree); change > 0) {
       for (std::size_t k = 0; k < count; ++k) values[6 + k] = real_text(knots[k]);
-      repairs_.add_relative(label(i),
-                            "knots that decrease, or differ at an end, in their last digits are one", change);
+      repairs_.add_relative(label(i), repaired_knots, change);
     }
     if (values.size() < range + 2) {
       warn(i, "its last values V(0) and V(1), from where to where it goes, are lost; all of it is read");
@@ -222,6 +228,7 @@ class SoundIges {
   }
 
   IgesRecords records_;
+  const KeptEntities& kept_;
   ImportReport& report_;
   Repairs repairs_;
   std::set<std::size_t> left_out_, passed_;
@@ -231,8 +238,9 @@ class SoundIges {
 
 }  // namespace
 
-std::string sound_iges(const std::string& content, const IgesGlobal& global, ImportReport& report) {
-  return SoundIges(content, global, report).text();
+std::string sound_iges(const std::string& content, const IgesGlobal& global, const KeptEntities& kept,
+                       ImportReport& report) {
+  return SoundIges(content, global, kept, report).text();
 }
 
 }  // namespace nurbeam
