@@ -1,6 +1,7 @@
 #include "cad_import/files/cad_format.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,13 @@ std::string_view without_leading_space(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos ? std::string_view() : text.substr(first);
+}
+
+bool begins_as_step(std::string_view text) {
+  constexpr std::string_view keyword = "ISO-10303-21";
+  const std::string_view begin = without_leading_space(text).substr(0, keyword.size());
+  return std::equal(begin.begin(), begin.end(), keyword.begin(), keyword.end(),
+                    [](unsigned char c, char wanted) { return std::toupper(c) == wanted; });
 }
 
 std::string_view without_trailing_space(std::string_view text) {
@@ -71,7 +79,7 @@ std::optional<long> declared_count(std::string_view terminate, char section) {
 }  // namespace
 
 std::optional<CadFormat> format_of(const std::string& content) {
-  if (without_leading_space(content).starts_with("ISO-10303-21")) return CadFormat::step;
+  if (begins_as_step(content)) return CadFormat::step;
   if (has_iges_section(first_line(content), 'S')) return CadFormat::iges;
   if (begins_as_dxf(content)) return CadFormat::dxf;
   if (const std::string_view text = without_leading_space(content);

@@ -9,6 +9,7 @@
 #include "cad_import/files/real_text.h"
 #include "cad_import/files/simple_operator.h"
 #include "cad_import/files/simple_spline.h"
+#include "cad_import/files/utf16.h"
 
 namespace nurbeam {
 namespace {
@@ -100,7 +101,18 @@ void append_instance(std::string_view statement, std::string& out) {
   out += ';';
 }
 
-std::string tolerant_step(std::string_view text) {
+/// Keywords and enumerations in capitals, as some write them small.
+void capitalise(std::string& text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t next = after_quotation(text, i);
+    if (next == i && text[i] >= 'a' && text[i] <= 'z') text[i] += 'A' - 'a';
+    i = next == i ? i + 1 : next;
+  }
+}
+
+std::string tolerant_step(std::string given) {
+  capitalise(given);
+  const std::string_view text = given;
   std::string out;
   out.reserve(text.size());
   std::string_view end_of_section;  // written when no other data section follows
@@ -158,6 +170,7 @@ std::string as_utf8(std::string text) {
 
 std::string tolerant_text(std::string content) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  content = without_utf16(std::move(content));
   if (content.starts_with(byte_order_mark)) content.erase(0, byte_order_mark.size());
   if (has_no_line_ends(content)) return in_lines(content);
   if (format_of(content) == CadFormat::step) return tolerant_step(as_utf8(std::move(content)));

@@ -13,6 +13,7 @@
 #include <string>
 #include <tuple>
 
+#include "cad_import/iges/arc_centre.h"
 #include "cad_import/iges/location.h"
 #include "nurbs/number_text.h"
 
@@ -91,19 +92,14 @@ Vector2d correction(const Matrix2d& sensitivity, const Vector2d& residual) {
   return solver.solve(residual);
 }
 
-void check_distance(double distance, double size, const Vector2d& end) {
-  constexpr double digits = 1e-3;  // that files leave
-  if (!(distance <= digits * size))
-    throw std::runtime_error("its end " + point_text(end) + " is " + text_of(distance) +
-                             " off the curve of its equation; correct one of them");
-}
-
 /// In the middle of being found: the axes, and the ends in them.
 struct Search {
-  Vector2d origin = {};
-  Matrix2d axes = {};  // main axis first
   Vector2d first, last;
+  Leniency leniency;
+  Vector2d origin = {};
+  Matrix2d axes = {};             // main axis first
   Vector2d start = {}, end = {};  // in the axes
+  double repair = 0;              // how far the ends were off, where that is told
 
   void locate() {
     start = axes.transpose() * (first - origin);
@@ -111,6 +107,31 @@ struct Search {
   }
   double size() const { return std::max(start.norm(), end.norm()); }
 };
+
+/// An end that lies so far off the curve of its equation.
+void allow_distance(double distance, double size, const Vector2d& end, Search& found) {
+  if (!found.leniency.repairs(distance, size))
+    throw std::runtime_error("its end " + point_text(end) + " is " + text_of(distance) +
+                             " off the curve of its equation; correct one of them");
+  if (Leniency::is_told(distance, size)) found.repair = std::max(found.repair, distance);
+}
+
+/// Moves the curve, of the points where `value` is zero, by the least that has its ends on it, where that is
+/// little.
+template <class Value, class Gradient>
+void shift_to_ends(Search& found, const Value& value, const Gradient& gradient) {
+  const Vector2d origin = found.origin;
+  for (int step = 0; step < 5; ++step) {
+    Matrix2d gradients;
+    gradients << gradient(found.start).transpose(), gradient(found.end).transpose();
+    const Vector2d values(value(found.start), value(found.end));
+    found.origin += found.axes * gradients.completeOrthogonalDecomposition().solve(values);
+    found.locate();
+  }
+  if (found.leniency.repairs((found.origin - origin).norm(), found.size())) return;
+  found.origin = origin;
+  found.locate();
+}
 
 /// p x^2 + q y^2 = 1: (p, q).
 Vector2d central(const Equation& equation, ConicPosition::Kind kind, const Principal& principal,
@@ -134,6 +155,15 @@ Vector2d central(const Equation& equation, ConicPosition::Kind kind, const Princ
   return factors;
 }
 
+void correct_circle(Vector2d& factors, Search& found) {
+  PlaneArc arc{found.origin, found.first, found.last};
+  make_consistent(arc, found.leniency);
+  found.origin = arc.centre;
+  found.last = arc.end;
+  found.locate();
+  factors.setConstant(1 / found.start.squaredNorm());
+}
+
 void correct_central(Vector2d& factors, Search& found) {
   Matrix2d terms;
   terms << found.start.cwiseAbs2().transpose(), found.end.cwiseAbs2().transpose();
@@ -141,13 +171,14 @@ void correct_central(Vector2d& factors, Search& found) {
   const Vector2d residual = Vector2d::Ones() - terms.rowwise().sum();
   for (const auto& [end, place, off] :
        {std::tuple{found.start, found.first, residual(0)}, std::tuple{found.end, found.last, residual(1)}})
-    check_distance(std::abs(off) / (2 * factors.cwiseProduct(end).norm()), found.size(), place);
+    allow_distance(std::abs(off) / (2 * factors.cwiseProduct(end).norm()), found.size(), place, found);
   constexpr double round_off = 1e-12;
   const bool is_circle = std::abs(factors(0) - factors(1)) <= round_off * factors(1);
-  if (is_circle)
-    factors(1) = factors(0);
-  else
-    factors = factors.cwiseProduct(Vector2d::Ones() + correction(terms, residual));
+  if (is_circle) return correct_circle(factors, found);
+  factors = factors.cwiseProduct(Vector2d::Ones() + correction(terms, residual));
+  shift_to_ends(
+      found, [&](const Vector2d& p) { return factors.dot(p.cwiseAbs2()) - 1; },
+      [&](const Vector2d& p) -> Vector2d { return 2 * factors.cwiseProduct(p); });
 }
 
 /// y^2 = k x: k.
@@ -167,14 +198,17 @@ void correct_parabolic(double& k, Search& found) {
   const Vector2d x(found.start.x(), found.end.x()), y(found.start.y(), found.end.y());
   const Vector2d residual = y.cwiseAbs2() - k * x;
   const double size = found.size() + k;
-  check_distance(std::abs(residual(0)) / std::hypot(2 * y(0), k), size, found.first);
-  check_distance(std::abs(residual(1)) / std::hypot(2 * y(1), k), size, found.last);
+  allow_distance(std::abs(residual(0)) / std::hypot(2 * y(0), k), size, found.first, found);
+  allow_distance(std::abs(residual(1)) / std::hypot(2 * y(1), k), size, found.last, found);
   Matrix2d sensitivity;  // to relative changes of k, and to shifts of the vertex in units of the size
   sensitivity << k * x, Vector2d::Constant(-k * size);
   const Vector2d change = correction(sensitivity / (k * size), residual / (k * size));
   found.origin += found.axes.col(0) * (change(1) * size / (1 + change(0)));
   k *= 1 + change(0);
   found.locate();
+  shift_to_ends(
+      found, [&](const Vector2d& p) { return p.y() * p.y() - k * p.x(); },
+      [&](const Vector2d& p) { return Vector2d(-k, 2 * p.y()); });
 }
 
 /// Upwards, where the curve is open to the right.
@@ -203,22 +237,13 @@ Eigen::Affine3d right_handed(Eigen::Affine3d location) {
   return location;
 }
 
-/// OpenCASCADE takes the radius at the start, and the direction alone of the end.
-void check_radius(const IGESGeom_CircularArc& arc) {
-  constexpr double digits = 1e-3;  // that files leave
-  const double first = arc.StartPoint().Distance(arc.Center()), last = arc.EndPoint().Distance(arc.Center());
-  if (!(std::abs(last - first) <= digits * first))
-    throw std::runtime_error("its start lies " + text_of(first) + " from its centre and its end " +
-                             text_of(last) + "; both must be its radius: correct the points");
-}
-
 }  // namespace
 
-ConicPosition position_of(const IGESGeom_ConicArc& arc) {
+ConicPosition position_of(const IGESGeom_ConicArc& arc, const Leniency& leniency) {
   const Equation equation = equation_of(arc);
   const Principal directions = principal(equation.quadratic);
   const ConicPosition::Kind kind = kind_of(arc, directions.values(0));
-  Search found{.first = vector_of(arc.StartPoint()), .last = vector_of(arc.EndPoint())};
+  Search found{.first = vector_of(arc.StartPoint()), .last = vector_of(arc.EndPoint()), .leniency = leniency};
   ConicPosition position{.kind = kind};
   if (kind == ConicPosition::parabola) {
     double k = parabolic(equation, directions, found);
@@ -236,12 +261,13 @@ ConicPosition position_of(const IGESGeom_ConicArc& arc) {
   position.start = found.start;
   position.end = is_whole ? found.start : found.end;
   position.axes = in_space(found, arc.ZPlane());
+  position.repair = found.repair;
   return position;
 }
 
-void put_into_position(IGESGeom_ConicArc& arc) {
+double put_into_position(IGESGeom_ConicArc& arc, const Leniency& leniency) {
   const Eigen::Affine3d location = rigid_location(arc);
-  const ConicPosition position = position_of(arc);
+  const ConicPosition position = position_of(arc, leniency);
   const double x = position.radii.x(), y = position.radii.y();
   constexpr double smallest = 1e-4;  // below which OpenCASCADE takes one axis for the other
   if (position.kind == ConicPosition::hyperbola && x <= smallest)
@@ -255,16 +281,19 @@ void put_into_position(IGESGeom_ConicArc& arc) {
     arc.Init(y / x, 0, position.kind == ConicPosition::ellipse ? x / y : -x / y, 0, 0, -x * y, 0, first,
              last);
   set_location(arc, right_handed(location * position.axes));
+  return position.repair;
 }
 
-void put_into_position(IGESGeom_CircularArc& arc) {
-  check_radius(arc);
+double put_into_position(IGESGeom_CircularArc& arc, const Leniency& leniency) {
   const Eigen::Affine3d location = rigid_location(arc);
-  if (location.linear().determinant() > 0) return;
-  const auto coordinates = [](const gp_Pnt2d& point) { return point.XY(); };
-  arc.Init(-arc.ZPlane(), coordinates(arc.Center()), coordinates(arc.StartPoint()),
-           coordinates(arc.EndPoint()));
-  set_location(arc, right_handed(location));
+  PlaneArc plane{vector_of(arc.Center()), vector_of(arc.StartPoint()), vector_of(arc.EndPoint())};
+  const double repair = make_consistent(plane, leniency);
+  const bool mirrors = location.linear().determinant() < 0;
+  const auto coordinates = [](const Vector2d& point) { return gp_XY(point.x(), point.y()); };
+  arc.Init(mirrors ? -arc.ZPlane() : arc.ZPlane(), coordinates(plane.centre), coordinates(plane.start),
+           coordinates(plane.end));
+  if (mirrors) set_location(arc, right_handed(location));
+  return repair;
 }
 
 }  // namespace nurbeam

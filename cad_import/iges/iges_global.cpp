@@ -123,17 +123,19 @@ class Parameters {
 };
 
 // Parameters 1 to 15, at the index of their number.
-std::vector<std::string> first_parameters(const std::string& text) {
+std::vector<std::string> first_parameters(const std::string& text, IgesGlobal& global) {
   std::vector<std::string> values(1);
   // Parameter 1 defines the delimiter that ends it: "1H,," or, by default, nothing before ','.
   const bool own_delimiter = text.starts_with("1H") && text.size() > 3;
-  char delimiter = own_delimiter ? text[2] : ',';
+  const char delimiter = own_delimiter ? text[2] : ',';
   Parameters parameters(text);
   parameters.delimiters(delimiter, ';');
   values.push_back(parameters.next());
   const std::size_t second = text.find(delimiter, own_delimiter ? 3 : 0) + 1;
   const bool own_record = text.compare(second, 2, "1H") == 0 && second + 2 < text.size();
-  parameters.delimiters(delimiter, own_record ? text[second + 2] : ';');
+  global.parameter_delimiter = delimiter;
+  global.record_delimiter = own_record ? text[second + 2] : ';';
+  parameters.delimiters(delimiter, global.record_delimiter);
   while (values.size() <= unit_name_field) values.push_back(parameters.next());
   return values;
 }
@@ -181,8 +183,8 @@ double unit_in_metres(int flag, const std::string& name) {
 }  // namespace
 
 IgesGlobal parse_iges_global(const std::string& content) {
-  const std::vector<std::string> values = first_parameters(global_text(content));
   IgesGlobal global;
+  const std::vector<std::string> values = first_parameters(global_text(content), global);
   global.unit_flag = number_or(values, unit_flag_field, 1);
   global.unit_name = values[unit_name_field];
   global.unit_in_metres = unit_in_metres(global.unit_flag, global.unit_name);

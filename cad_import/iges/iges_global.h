@@ -9,6 +9,7 @@ struct IgesGlobal {
   std::string unit_name;      ///< parameter 15
   double unit_in_metres = 0;  ///< what they mean together
   double scale = 1;           ///< parameter 13: model space over real space
+  char parameter_delimiter = ',', record_delimiter = ';';
 };
 
 /// The Global section of an IGES file with this content (IGES 5.3, 2.2.4.3), read independently of

@@ -55,8 +55,9 @@ Range whole_of(const IGESGeom_ConicArc& arc, ConicPosition::Kind kind) {
 }
 
 /// The whole arc in OpenCASCADE's parameter, which goes by its own axes.
-Range of_whole_conic(const IGESGeom_ConicArc& arc, const Range& given, double unit) {
-  const ConicPosition position = position_of(arc);
+Range of_whole_conic(const IGESGeom_ConicArc& arc, const Range& given, double unit,
+                     const Leniency& leniency) {
+  const ConicPosition position = position_of(arc, leniency);
   if (position.kind == ConicPosition::hyperbola)
     throw std::runtime_error("it is the offset of a hyperbola, which is not read; write it as a B-spline");
   const Range whole = whole_of(arc, position.kind);
@@ -72,7 +73,7 @@ Range of_whole_conic(const IGESGeom_ConicArc& arc, const Range& given, double un
                        angle_of(position.end, radii.x(), radii.y()));
 }
 
-Range occt_range(const Entity& base, const Range& given, double unit) {
+Range occt_range(const Entity& base, const Range& given, double unit, const Leniency& leniency) {
   if (!(given.first < given.last))
     throw std::runtime_error("its parameters are " + range_text(given) +
                              "; the first must be the smaller one");
@@ -81,7 +82,7 @@ Range occt_range(const Entity& base, const Range& given, double unit) {
     return {given.first * length, given.last * length};
   }
   if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(base))
-    return of_whole_conic(*conic, given, unit);
+    return of_whole_conic(*conic, given, unit, leniency);
   if (base->IsKind(STANDARD_TYPE(IGESGeom_CircularArc)) || base->IsKind(STANDARD_TYPE(IGESGeom_BSplineCurve)))
     return given;
   throw std::runtime_error(
@@ -116,10 +117,10 @@ gp_XYZ turned_back(const IGESGeom_OffsetCurve& offset) {
 
 }  // namespace
 
-void restate_offset(IGESGeom_OffsetCurve& offset, double unit) {
+void restate_offset(IGESGeom_OffsetCurve& offset, double unit, const Leniency& leniency) {
   const Entity base = base_of(offset);
   if (base.IsNull() || offset.OffsetType() != 1) return;  // OpenCASCADE refuses it itself
-  const Range range = occt_range(base, {offset.StartParameter(), offset.EndParameter()}, unit);
+  const Range range = occt_range(base, {offset.StartParameter(), offset.EndParameter()}, unit, leniency);
   offset.Init(offset.BaseCurve(), 1, offset.Function(), offset.FunctionParameter(),
               offset.TaperedOffsetType(), offset.FirstOffsetDistance() * unit, offset.ArcLength1(),
               offset.SecondOffsetDistance(), offset.ArcLength2(), turned_back(offset), range.first,

@@ -1,4 +1,5 @@
 #pragma once
+#include "cad_import/report/leniency.h"
 
 class IGESGeom_OffsetCurve;
 
@@ -9,6 +10,6 @@ namespace nurbeam {
 /// the base curve must be as it is in the file. Throws std::runtime_error where the base is none of a line, a
 /// circular arc, a B-spline and a whole ellipse or parabola, or where one offset is of another that is moved
 /// or turned.
-void restate_offset(IGESGeom_OffsetCurve& offset, double unit);
+void restate_offset(IGESGeom_OffsetCurve& offset, double unit, const Leniency& leniency);
 
 }  // namespace nurbeam

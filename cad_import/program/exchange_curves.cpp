@@ -118,12 +118,13 @@ std::optional<FoundCurve> find_lost(const NurbsCurve& drawn, const RestatedCurve
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const auto known = recovered.find(model->Value(i).get());
     if (known == recovered.end()) continue;
-    const auto& [first, places] = known->second;
-    for (std::size_t k = 0; k < places.size(); ++k)
+    const auto& [first, places, at_each] = known->second;
+    for (std::size_t k = 0; k < places.size() * at_each; ++k)
       if (is_same(report.curves[first + k].curve, drawn))
         return FoundCurve{.instance = model->IdentLabel(model->Value(i)),
-                          .to_world = in_metres(places[k], metres_per_millimetre),
-                          .places = static_cast<int>(places.size())};
+                          .to_world = in_metres(places[k / at_each], metres_per_millimetre),
+                          .places = static_cast<int>(places.size()),
+                          .piece = at_each > 1};
   }
   return std::nullopt;
 }

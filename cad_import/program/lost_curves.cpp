@@ -51,6 +51,9 @@ namespace {
 
 constexpr int most_named = 20;
 
+constexpr const char* without_place =
+    "it is a curve of a product definition whose place in the assembly, or unit, is not known";
+
 using Entity = Handle(Standard_Transient);
 
 bool names_a_curve(std::string_view keyword) {
@@ -233,13 +236,15 @@ std::vector<ImportedCurve> curves_of(const Entity& entity, const XSControl_Reade
                                      const RestatedCurves& restated, double unit, double tolerance) {
   if (is_array(entity))
     return array_curves(Handle(IGESData_IGESEntity)::DownCast(entity), reader, restated, unit, tolerance);
-  ImportedCurve curve = step_curve(entity, unit, tolerance);
-  curve.name = entity_name(entity);
+  std::vector<ImportedCurve> curves = step_curves(entity, unit, tolerance);
   const Appearance appearance = appearance_of(entity, reader);
-  curve.layer = appearance.layer;
-  curve.colour = appearance.colour;
-  curve.hidden = appearance.hidden;
-  return {std::move(curve)};
+  for (ImportedCurve& curve : curves) {
+    curve.name = entity_name(entity);
+    curve.layer = appearance.layer;
+    curve.colour = appearance.colour;
+    curve.hidden = appearance.hidden;
+  }
+  return curves;
 }
 
 // Why no curve was added; nothing if one was. `unit`: of the entity's coordinates [m].
@@ -247,7 +252,7 @@ std::optional<std::string> add_curves_of(const Entity& entity, const XSControl_R
                                          const RestatedCurves& restated, const Coordinates& in,
                                          double tolerance, ImportReport& report) {
   if (auto reason = obstacle(entity, reader.WS()->Graph())) return reason;
-  if (in.places.empty()) return "its place or its unit in the assembly is not known";
+  if (in.places.empty()) return without_place;
   try {
     OCC_CATCH_SIGNALS
     const std::vector<ImportedCurve> curves = curves_of(entity, reader, restated, in.unit, tolerance);
@@ -267,6 +272,11 @@ std::optional<std::string> add_curves_of(const Entity& entity, const XSControl_R
   } catch (const std::exception& e) {
     return e.what();
   }
+}
+
+std::string label_of(const Interface_InterfaceModel& model, const Entity& entity) {
+  const std::string name = entity_name(entity);
+  return entity_label(model, entity) + (name.empty() ? "" : " '" + name + "'");
 }
 
 // The part of a file that has one only; "" of others.
@@ -319,7 +329,8 @@ LostCurves add_lost_curves(const XSControl_Reader& reader, const RestatedCurves&
                            ImportReport& report) {
   const Interface_InterfaceModel& model = *reader.Model();
   Whole whole(reader, restated, report.unit_in_metres);
-  int named = 0;
+  int named = 0, without_place_count = 0;
+  std::string first_without_place;
   LostCurves found;
   for (const Entity& entity : lost_curves(reader, restated)) {
     const std::size_t first = report.curves.size();
@@ -329,15 +340,22 @@ LostCurves add_lost_curves(const XSControl_Reader& reader, const RestatedCurves&
       RecoveredCurve& recovered = found.recovered[entity.get()];
       recovered.first = first;
       for (const PartPlace& place : in.places) recovered.places.push_back(place.to_world);
+      recovered.at_each = in.places.empty() ? 0 : (report.curves.size() - first) / in.places.size();
       continue;
     }
     found.named.insert(entity.get());
-    if (++named > most_named) continue;
-    const std::string name = entity_name(entity);
-    add_diagnostic(report, Severity::warning,
-                   entity_label(model, entity) + (name.empty() ? "" : " '" + name + "'"),
-                   "not read: " + *why);
+    if (*why == without_place && ++without_place_count > 1) continue;
+    if (*why == without_place)
+      first_without_place = label_of(model, entity);
+    else if (++named <= most_named)
+      add_diagnostic(report, Severity::warning, label_of(model, entity), "not read: " + *why);
   }
+  if (without_place_count > 0)
+    add_diagnostic(report, Severity::warning, first_without_place,
+                   "not read: " + std::string(without_place) + "; so are " +
+                       std::to_string(without_place_count) +
+                       " curve(s) in all: export the part that has them by itself, or as one part with the "
+                       "others");
   if (named > most_named)
     add_diagnostic(report, Severity::warning, "",
                    std::to_string(named - most_named) + " more curves were not read");

@@ -14,7 +14,8 @@ namespace nurbeam {
 /// One of them that a curve was added of, or several, which begin at this index in the report.
 struct RecoveredCurve {
   std::size_t first;
-  std::vector<gp_Trsf> places;  ///< of its part: one for each curve; none of an IGES array's
+  std::vector<gp_Trsf> places = {};  ///< of its part; none of an IGES array's
+  std::size_t at_each = 0;           ///< curves at each place, one after another
 };
 
 /// Curve entities that OpenCASCADE made nothing of; only ever looked up, so that no order depends on

@@ -7,8 +7,8 @@
 #include "cad_import/files/child_work.h"
 #include "cad_import/iges/iges_text.h"
 #include "cad_import/program/brep_text.h"
+#include "cad_import/program/contained_reading.h"
 #include "cad_import/program/exchange_curves.h"
-#include "cad_import/program/read_file.h"
 #include "cad_import/report/report_bytes.h"
 #include "cad_import/report/request.h"
 #include "cad_import/step/step_text.h"
@@ -17,9 +17,7 @@
 namespace nurbeam {
 namespace {
 
-std::string answer(const ReadRequest& request) {
-  return to_bytes(read_file(request.file, request.tolerance));
-}
+std::string answer(const ReadRequest& request) { return contained_reading(request.file, request.tolerance); }
 std::string answer(const WriteCurvesRequest& request) {
   switch (request.format) {
     case CadFormat::step:

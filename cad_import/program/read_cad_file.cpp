@@ -37,7 +37,10 @@
 #include "cad_import/program/part_names.h"
 #include "cad_import/program/restated_curves.h"
 #include "cad_import/program/shape_curves.h"
+#include "cad_import/program/sound_iges.h"
 #include "cad_import/report/length_unit.h"
+#include "cad_import/step/broken_instances.h"
+#include "cad_import/step/set_items.h"
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/supplemental_geometry.h"
 #include "nurbs/number_text.h"
@@ -148,11 +151,42 @@ void report_step_unit(const Interface_InterfaceModel& model, ImportReport& repor
   report_unit(units.empty() ? metres_per_millimetre : *units.begin(), report);
 }
 
+void leave_out(const KeptEntities& kept, const Interface_InterfaceModel& model, ImportReport& report) {
+  kept.tell(model.NbEntities());
+  for (const int number : kept.without)
+    if (number < model.NbEntities())
+      add_diagnostic(report, Severity::warning, entity_label(model, model.Value(number + 1)), crashed_on);
+  if (kept.before < model.NbEntities() || !kept.without.empty())
+    replace_items(model, [&](const Handle(Standard_Transient) & item) {
+      return !kept.contain(model.Number(item) - 1);
+    });
+}
+
+/// Reads the file, without the instances that the syntax of STEP does not allow, where there are such.
+void read_sound(STEPControl_Reader& reader, std::string content, ImportReport& report) {
+  try {
+    return read(reader, content, report);
+  } catch (const std::runtime_error&) {
+    const std::vector<BrokenInstance> broken = remove_broken_instances(content);
+    if (broken.empty()) throw;
+    for (std::size_t i = 0; i < std::min<std::size_t>(broken.size(), most_reported_failures); ++i)
+      add_diagnostic(report, Severity::warning, broken[i].label,
+                     "left out: '" + broken[i].token + "' in it is no value of a STEP file; correct it");
+    if (broken.size() > most_reported_failures)
+      add_diagnostic(
+          report, Severity::warning, "",
+          std::to_string(broken.size() - most_reported_failures) + " more instances were left out");
+  }
+  reader = STEPControl_Reader();
+  read(reader, content, report);
+}
+
 void read_step(const std::string& content, double tolerance, const ReadFile& read_other,
-               ImportReport& report) {
+               const KeptEntities& kept, ImportReport& report) {
   start_step();
   STEPControl_Reader reader;
-  read(reader, content, report);
+  read_sound(reader, content, report);
+  leave_out(kept, *reader.Model(), report);
   if (restate_units(*reader.Model())) warn_of_angles(*reader.Model(), report);
   report_step_unit(*reader.Model(), report);
   join_supplemental_geometry(reader);
@@ -172,15 +206,16 @@ void compare_units(const IgesGlobal& ours, const IGESData_GlobalSection& theirs)
                            " m; correct the Global section (Hollerith counts, parameters 14 and 15)");
 }
 
-void read_iges(const std::string& content, double tolerance, ImportReport& report) {
-  const IgesGlobal global = parse_iges_global(content);
+void read_iges(const std::string& given, double tolerance, const KeptEntities& kept, ImportReport& report) {
+  const IgesGlobal global = parse_iges_global(given);
   report_unit(global.unit_in_metres, report);
   if (global.scale != 1) {
     add_diagnostic(report, Severity::note, "",
                    "the model space scale " + text_of(global.scale) + " (drawing scale) is not applied");
   }
-  if (const auto miscounted = miscounted_lines(content))
+  if (const auto miscounted = miscounted_lines(given))
     add_diagnostic(report, Severity::warning, "", *miscounted);
+  const std::string content = sound_iges(given, global, kept, report);
   start_iges();
   // Only after Init: before it, the parameter is unknown and curves are split where they are only C0.
   if (!Interface_Static::SetIVal("read.iges.bspline.continuity", 0))
@@ -233,12 +268,12 @@ std::string without_curves(const ImportReport& report) {
 }
 
 void read_format(const std::string& content, CadFormat format, double tolerance, const ReadFile& read_other,
-                 ImportReport& report) {
+                 const KeptEntities& kept, ImportReport& report) {
   switch (format) {
     case CadFormat::step:
-      return read_step(content, tolerance, read_other, report);
+      return read_step(content, tolerance, read_other, kept, report);
     case CadFormat::iges:
-      return read_iges(content, tolerance, report);
+      return read_iges(content, tolerance, kept, report);
     case CadFormat::dxf:
       return read_drawing(content, report);
     case CadFormat::brep:
@@ -249,14 +284,14 @@ void read_format(const std::string& content, CadFormat format, double tolerance,
 }  // namespace
 
 ImportReport read_cad_file(const std::filesystem::path& file, const std::string& content, CadFormat format,
-                           double tolerance, const ReadFile& read_other) {
+                           double tolerance, const ReadFile& read_other, const KeptEntities& kept) {
   ImportReport report;
   report.file = file.string();
   report.format = format;
   be_silent();
   try {
     OCC_CATCH_SIGNALS
-    read_format(content, format, tolerance, read_other, report);
+    read_format(content, format, tolerance, read_other, kept, report);
   } catch (const Standard_Failure& e) {
     add_diagnostic(report, Severity::error, "",
                    std::string("OpenCASCADE failed (") + e.DynamicType()->Name() + " " +

@@ -24,7 +24,8 @@ ImportReport refusal(const fs::path& file, const std::string& message) {
 }
 
 // `assemblies`: the files that refer to this one, directly or not.
-ImportReport read_file_of(const fs::path& file, double tolerance, std::vector<fs::path> assemblies) {
+ImportReport read_file_of(const fs::path& file, double tolerance, const KeptEntities& kept,
+                          std::vector<fs::path> assemblies) {
   std::error_code error;
   const fs::path itself = fs::weakly_canonical(file, error);
   if (std::find(assemblies.begin(), assemblies.end(), itself) != assemblies.end())
@@ -45,12 +46,15 @@ ImportReport read_file_of(const fs::path& file, double tolerance, std::vector<fs
         "DBRep_DrawableShape or CASCADE Topology); export the curves as STEP AP214 or IGES");
   }
   if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
-  return read_cad_file(file, content, *format, tolerance,
-                       [&](const fs::path& part) { return read_file_of(part, tolerance, assemblies); });
+  return read_cad_file(
+      file, content, *format, tolerance,
+      [&](const fs::path& part) { return read_file_of(part, tolerance, {}, assemblies); }, kept);
 }
 
 }  // namespace
 
-ImportReport read_file(const fs::path& file, double tolerance) { return read_file_of(file, tolerance, {}); }
+ImportReport read_file(const fs::path& file, double tolerance, const KeptEntities& kept) {
+  return read_file_of(file, tolerance, kept, {});
+}
 
 }  // namespace nurbeam

@@ -19,15 +19,25 @@ bool Remarks::attempt(const Entity& entity, const std::function<void()>& restate
   return false;
 }
 
-void Remarks::say(Severity severity, const Entity& entity, const std::string& message) {
+void Remarks::repaired(const Entity& entity, const std::string& what, double size) {
+  repairs_.add(label_of(entity), what, size);
+}
+
+void Remarks::repaired_relative(const Entity& entity, const std::string& what, double part) {
+  repairs_.add_relative(label_of(entity), what, part);
+}
+
+std::string Remarks::label_of(const Entity& entity) const {
   const std::string name = entity_name(entity);
-  add_diagnostic(report_, severity, entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'"),
-                 message);
+  return entity_label(model_, entity) + (name.empty() ? "" : " '" + name + "'");
+}
+
+void Remarks::say(Severity severity, const Entity& entity, const std::string& message) {
+  add_diagnostic(report_, severity, label_of(entity), message);
 }
 
 void Remarks::refuse(const Entity& entity, const std::string& why) {
-  refused_.insert(entity.get());
-  warn(entity, "skipped with all that is made of it: " + why);
+  if (refused_.insert(entity.get()).second) warn(entity, "skipped with all that is made of it: " + why);
 }
 
 }  // namespace nurbeam

@@ -6,6 +6,7 @@
 #include <Interface_Graph.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
+#include <StepGeom_BSplineCurve.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_CurveReplica.hxx>
 #include <StepGeom_OffsetCurve3d.hxx>
@@ -33,12 +34,14 @@
 #include "cad_import/program/part_places.h"
 #include "cad_import/program/remarks.h"
 #include "cad_import/program/restated_iges.h"
+#include "cad_import/program/unsound_curves.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/axis_placement.h"
 #include "cad_import/step/between_placements.h"
 #include "cad_import/step/closed_spline.h"
 #include "cad_import/step/curve_replica.h"
 #include "cad_import/step/nested_piece.h"
+#include "cad_import/step/sound_spline.h"
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/transformation_operator.h"
 #include "cad_import/step/trimmed_conic.h"
@@ -99,6 +102,16 @@ void restate_placements(const StepData_StepModel& model) {
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (const auto placement = Handle(StepGeom_Axis2Placement3d)::DownCast(model.Value(i)))
       complete_axes(*placement);
+}
+
+void restate_splines(const StepData_StepModel& model, Remarks& remarks) {
+  for (int i = 1; i <= model.NbEntities(); ++i)
+    if (model.Value(i)->IsKind(STANDARD_TYPE(StepGeom_BSplineCurve)))
+      remarks.attempt(model.Value(i), [&] {
+        if (const double knots = make_sound(model.Value(i)).knots; knots > 0)
+          remarks.repaired_relative(model.Value(i), repaired_knots, knots);
+      });
+  remarks.tell_repairs();
 }
 
 class StepCurves {
@@ -249,6 +262,8 @@ RestatedCurves restate_curves(const XSControl_Reader& reader, ImportReport& repo
   if (const auto iges = Handle(IGESData_IGESModel)::DownCast(reader.Model()))
     restated.places = restate_iges(*iges, remarks);
   if (const auto step = Handle(StepData_StepModel)::DownCast(reader.Model())) {
+    refuse_unsound_curves(*step, reader.WS()->Graph(), remarks);
+    restate_splines(*step, remarks);
     restate_placements(*step);
     unmark_closed_splines(*step);
     StepCurves curves(*step, reader.WS()->Graph(), remarks);

@@ -83,6 +83,18 @@ std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, do
   return places;
 }
 
+/// `unit`: [mm].
+template <class Arc>
+void restate_arc(const Handle(Arc) & arc, double unit, const std::string& repair, const Leniency& leniency,
+                 Remarks& remarks) {
+  remarks.attempt(
+      arc,
+      [&] {
+        if (const double size = put_into_position(*arc, leniency); size > 0)
+          remarks.repaired(arc, repair, size * unit * metres_per_millimetre);
+      });
+}
+
 void note_data_points(const IGESData_IGESModel& model, Remarks& remarks) {
   const std::vector<Handle(IGESData_IGESEntity)> points = data_points(model);
   if (points.empty()) return;
@@ -122,18 +134,24 @@ std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks
   chain_matrices(model, remarks);
   const EntitySet axes = axes_of_revolution(model);
   const double unit = model.GlobalSection().UnitValue();  // [mm]
+  const Leniency leniency{model.GlobalSection().Resolution()};
   for (int i = 1; i <= model.NbEntities(); ++i)
     if (const auto offset = Handle(IGESGeom_OffsetCurve)::DownCast(model.Value(i)))
-      remarks.attempt(offset, [&] { restate_offset(*offset, unit); });
+      remarks.attempt(offset, [&] { restate_offset(*offset, unit, leniency); });
   for (int i = 1; i <= model.NbEntities(); ++i) {
     if (const auto line = Handle(IGESGeom_Line)::DownCast(model.Value(i));
         !line.IsNull() && !axes.contains(line.get()))
       remarks.attempt(line, [&] { check_bounded(*line); });
     if (const auto circle = Handle(IGESGeom_CircularArc)::DownCast(model.Value(i)))
-      remarks.attempt(circle, [&] { put_into_position(*circle); });
+      restate_arc(circle, unit,
+                  "the ends of an arc, at different distances from its centre, stay, and the centre moves "
+                  "(of an almost whole circle the end moves)",
+                  leniency, remarks);
     if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))
-      remarks.attempt(conic, [&] { put_into_position(*conic); });
+      restate_arc(conic, unit, "the ends of a conic arc stay, and the curve of its equation moves", leniency,
+                  remarks);
   }
+  remarks.tell_repairs();
   note_data_points(model, remarks);
   note_drawing_lines(model, remarks);
   warn_of_external_references(model, remarks);

@@ -7,26 +7,23 @@
 #include <Geom_Curve.hxx>
 #include <Geom_Hyperbola.hxx>
 #include <StepGeom_BSplineCurve.hxx>
-#include <StepGeom_BSplineCurveWithKnots.hxx>
-#include <StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve.hxx>
-#include <StepGeom_BezierCurveAndRationalBSplineCurve.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_Curve.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_PolyLoop.hxx>
 #include <StepShape_VertexPoint.hxx>
 #include <StepToGeom.hxx>
-#include <TColStd_HArray1OfInteger.hxx>
-#include <TColStd_HArray1OfReal.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/end_parameters.h"
+#include "cad_import/step/spline_values.h"
+#include "nurbs/full_knots.h"
 
 namespace nurbeam {
 namespace {
@@ -38,63 +35,19 @@ Eigen::Vector3d point_of(const Handle(StepGeom_CartesianPoint) & point, double u
          Eigen::Vector3d(point->CoordinatesValue(1), point->CoordinatesValue(2), point->CoordinatesValue(3));
 }
 
-std::vector<double> clamped(int degree, int spans) {
-  std::vector<double> knots(degree + 1, 0);
-  for (int i = 1; i < spans; ++i) knots.insert(knots.end(), degree, i);
-  knots.insert(knots.end(), degree + 1, spans);
-  return knots;
-}
-
-/// Knots as given; of a Bezier curve, which has none, those of its arcs.
-std::vector<double> knots_of(const StepGeom_BSplineCurve& curve) {
-  Handle(TColStd_HArray1OfReal) values;
-  Handle(TColStd_HArray1OfInteger) multiplicities;
-  if (const auto* plain = dynamic_cast<const StepGeom_BSplineCurveWithKnots*>(&curve)) {
-    values = plain->Knots();
-    multiplicities = plain->KnotMultiplicities();
-  } else if (const auto* rational =
-                 dynamic_cast<const StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve*>(&curve)) {
-    values = rational->Knots();
-    multiplicities = rational->KnotMultiplicities();
-  } else {
-    const int spans = (curve.NbControlPointsList() - 1) / curve.Degree();
-    return clamped(curve.Degree(), spans);
-  }
-  std::vector<double> knots;
-  for (int i = 1; i <= values->Length() && i <= multiplicities->Length(); ++i)
-    knots.insert(knots.end(), std::clamp(multiplicities->Value(i), 0, curve.Degree() + 1), values->Value(i));
-  return knots;
-}
-
-Handle(TColStd_HArray1OfReal) weights_of(const StepGeom_BSplineCurve& curve) {
-  if (const auto* bezier = dynamic_cast<const StepGeom_BezierCurveAndRationalBSplineCurve*>(&curve))
-    return bezier->WeightsData();
-  if (const auto* rational =
-          dynamic_cast<const StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve*>(&curve))
-    return rational->WeightsData();
-  return nullptr;
-}
-
-NurbsCurve nurbs_of(const StepGeom_BSplineCurve& curve, double unit) {
+std::vector<NurbsCurve> nurbs_of(const StepGeom_BSplineCurve& curve, double unit) {
   const int count = curve.NbControlPointsList();
   if (curve.Degree() < 1 || count < 2) throw std::runtime_error("it has no degree or no control points");
-  const Handle(TColStd_HArray1OfReal) weights = weights_of(curve);
-  if (!weights.IsNull() && weights->Length() != count)
-    throw std::runtime_error("it has not one weight for each control point");
-  Eigen::Matrix3Xd points(3, count);
-  Eigen::VectorXd values = Eigen::VectorXd::Ones(count);
-  for (int i = 0; i < count; ++i) {
-    points.col(i) = point_of(curve.ControlPointsListValue(i + 1), unit);
-    if (!weights.IsNull()) values(i) = weights->Value(weights->Lower() + i);
-  }
-  return make_nurbs_curve(KnotVector(curve.Degree(), knots_of(curve)), points, values);
+  Eigen::Matrix4Xd points = control_points_of(curve);
+  points.topRows<3>() *= unit;
+  return split_at_full_knots(curve.Degree(), knots_of(curve), points);
 }
 
 NurbsCurve nurbs_of(const StepShape_PolyLoop& loop, double unit) {
   const int count = loop.NbPolygon();
   Eigen::Matrix3Xd points(3, count + 1);  // back to the first
   for (int i = 0; i <= count; ++i) points.col(i) = point_of(loop.PolygonValue(i % count + 1), unit);
-  return make_nurbs_curve(KnotVector(1, clamped(1, count)), points, Eigen::VectorXd::Ones(count + 1));
+  return make_nurbs_curve(KnotVector(1, clamped_knots(1, count)), points, Eigen::VectorXd::Ones(count + 1));
 }
 
 gp_Pnt vertex_of(const Handle(StepShape_Vertex) & vertex) {
@@ -146,12 +99,18 @@ TopoDS_Edge edge_of(const Handle(Standard_Transient) & entity) {
 
 }  // namespace
 
-ImportedCurve step_curve(const Handle(Standard_Transient) & entity, double unit, double tolerance) {
-  if (const auto spline = Handle(StepGeom_BSplineCurve)::DownCast(entity))
-    return {.entity = "bspline", .curve = nurbs_of(*spline, unit)};
-  if (const auto loop = Handle(StepShape_PolyLoop)::DownCast(entity))
-    return {.entity = "bspline", .curve = nurbs_of(*loop, unit)};
-  return imported_curve(edge_of(entity), tolerance);
+std::vector<ImportedCurve> step_curves(const Handle(Standard_Transient) & entity, double unit,
+                                       double tolerance) {
+  std::vector<ImportedCurve> curves;
+  if (const auto spline = Handle(StepGeom_BSplineCurve)::DownCast(entity)) {
+    for (NurbsCurve& curve : nurbs_of(*spline, unit))
+      curves.push_back({.entity = "bspline", .curve = std::move(curve)});
+    return curves;
+  }
+  const auto loop = Handle(StepShape_PolyLoop)::DownCast(entity);
+  curves.push_back(loop.IsNull() ? imported_curve(edge_of(entity), tolerance)
+                                 : ImportedCurve{.entity = "bspline", .curve = nurbs_of(*loop, unit)});
+  return curves;
 }
 
 }  // namespace nurbeam

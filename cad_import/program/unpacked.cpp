@@ -6,6 +6,10 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
+
+#include "cad_import/files/cad_file_name.h"
+#include "cad_import/files/cad_format.h"
 
 namespace nurbeam {
 namespace {
@@ -42,23 +46,58 @@ std::size_t little_endian(std::string_view text, std::size_t at, std::size_t cou
   return value;
 }
 
-/// The first file of a zip archive (APPNOTE.TXT 4.3.7, the local file header).
-std::string first_of_zip(std::string_view archive, std::size_t limit) {
+/// A file of a zip archive: where its local header begins, and what the central directory says of it.
+struct ZipEntry {
+  std::size_t header, packed_size, method;
+  std::string name;
+};
+
+std::string content_of(std::string_view archive, const ZipEntry& entry, std::size_t limit) {
   constexpr std::size_t header = 30, deflated = 8;
-  const std::size_t method = little_endian(archive, 8, 2), size = little_endian(archive, 18, 4);
-  const std::size_t begin = header + little_endian(archive, 26, 2) + little_endian(archive, 28, 2);
+  const std::size_t begin = entry.header + header + little_endian(archive, entry.header + 26, 2) +
+                            little_endian(archive, entry.header + 28, 2);
   if (begin > archive.size()) fail("is damaged");
-  if (method == deflated) return inflated(archive.substr(begin), -MAX_WBITS, limit);
-  if (method != 0) fail("uses a method other than deflate");
-  if (begin + size > archive.size()) fail("is damaged");
-  return std::string(archive.substr(begin, size));
+  if (entry.method == deflated) return inflated(archive.substr(begin), -MAX_WBITS, limit);
+  if (entry.method != 0) fail("uses a method other than deflate");
+  if (entry.packed_size > archive.size() - begin) fail("is damaged");
+  return std::string(archive.substr(begin, entry.packed_size));
+}
+
+/// By the central directory (APPNOTE.TXT 4.3.12), else the first by its local header (4.3.7).
+std::vector<ZipEntry> entries_of(std::string_view archive) {
+  constexpr std::size_t most = 10'000, entry_size = 46;
+  constexpr std::string_view end_mark = "PK\x05\x06", entry_mark = "PK\x01\x02";
+  const ZipEntry first{0, little_endian(archive, 18, 4), little_endian(archive, 8, 2), ""};
+  const std::size_t end = archive.rfind(end_mark);
+  if (end == std::string_view::npos) return {first};
+  std::vector<ZipEntry> entries;
+  for (std::size_t at = little_endian(archive, end + 16, 4); entries.size() < most;) {
+    if (at + entry_size > archive.size() || archive.substr(at, entry_mark.size()) != entry_mark) break;
+    const std::size_t name = little_endian(archive, at + 28, 2);
+    entries.push_back({little_endian(archive, at + 42, 4), little_endian(archive, at + 20, 4),
+                       little_endian(archive, at + 10, 2),
+                       std::string(archive.substr(at + entry_size, name))});
+    at += entry_size + name + little_endian(archive, at + 30, 2) + little_endian(archive, at + 32, 2);
+  }
+  return entries.empty() ? std::vector{first} : entries;
+}
+
+/// The first that is a CAD file by its name or its content, else the first of all.
+std::string cad_file_of_zip(std::string_view archive, std::size_t limit) {
+  const std::vector<ZipEntry> entries = entries_of(archive);
+  for (const ZipEntry& entry : entries)
+    if (format_by_name(entry.name) && !entry.name.starts_with("__MACOSX/"))
+      return content_of(archive, entry, limit);
+  for (const ZipEntry& entry : entries)
+    if (std::string content = content_of(archive, entry, limit); format_of(content)) return content;
+  return content_of(archive, entries.front(), limit);
 }
 
 }  // namespace
 
 std::string unpacked(std::string content, std::size_t limit) {
   constexpr int gzip = 16 + MAX_WBITS;
-  if (content.starts_with("PK\x03\x04")) return first_of_zip(content, limit);
+  if (content.starts_with("PK\x03\x04")) return cad_file_of_zip(content, limit);
   if (content.starts_with("\x1F\x8B")) return inflated(content, gzip, limit);
   return content;
 }

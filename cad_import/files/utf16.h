@@ -1,0 +1,10 @@
+#pragma once
+#include <string>
+
+namespace nurbeam {
+
+/// A text in UTF-16 of either byte order, with a byte-order mark or beginning with ASCII letters, as UTF-8;
+/// any other as it is.
+std::string without_utf16(std::string text);
+
+}  // namespace nurbeam

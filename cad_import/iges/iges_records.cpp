@@ -1,0 +1,164 @@
+#include "cad_import/iges/iges_records.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+namespace nurbeam {
+namespace {
+
+constexpr std::size_t field_width = 8;       // columns
+constexpr std::size_t letter_column = 72;    // column 73, counted from 0
+constexpr std::size_t parameter_width = 64;  // columns of parameters in their lines
+constexpr std::string_view space = " \t\r\n";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(space);
+  return begin == std::string_view::npos ? std::string_view()
+                                         : text.substr(begin, text.find_last_not_of(space) + 1 - begin);
+}
+
+std::string field_of(const std::string& line, std::size_t column) {
+  return std::string(trimmed(std::string_view(line).substr(column * field_width, field_width)));
+}
+
+int integer_field(const std::string& line, std::size_t column) {
+  return std::atoi(field_of(line, column).c_str());
+}
+
+std::string right(long number, std::size_t width) {
+  const std::string digits = std::to_string(number);
+  return std::string(width - std::min(width, digits.size()), ' ') + digits;
+}
+
+std::string line_of(std::string text, char section, std::size_t number) {
+  text.resize(letter_column, ' ');
+  return text + section + right(static_cast<long>(number), field_width - 1) + '\n';
+}
+
+std::string name_of(const std::string& second_line) {
+  const std::string label = field_of(second_line, 7);
+  const int subscript = integer_field(second_line, 8);
+  return label.empty() || subscript <= 0 ? label : label + "(" + std::to_string(subscript) + ")";
+}
+
+/// The length of a Hollerith string, "4Htext", that begins there; 0 where none does.
+std::size_t hollerith_length(std::string_view text) {
+  std::size_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  const std::size_t head = static_cast<std::size_t>(end - text.data()) + 1;
+  const bool is_one = error == std::errc() && head <= text.size() && *end == 'H';
+  return is_one ? head + std::min(count, text.size() - head) : 0;
+}
+
+}  // namespace
+
+IgesRecords::IgesRecords(const std::string& content, char parameter_delimiter, char record_delimiter)
+    : content_(content), parameter_delimiter_(parameter_delimiter), record_delimiter_(record_delimiter) {
+  for (std::size_t begin = 0; begin < content.size();) {
+    const std::size_t end = std::min(content.find_first_of("\r\n", begin), content.size());
+    const std::string_view line(content.data() + begin, end - begin);
+    const char section = line.size() > letter_column ? line[letter_column] : ' ';
+    if (section == 'S' || section == 'G') (head_ += line) += '\n';
+    if (section == 'D') read_directory_line(line);
+    if (section == 'P') read_parameter_line(line);
+    begin = end + 1;
+  }
+  if (!begins_entry_) {  // its second line is lost
+    records_.pop_back();
+    lines_.pop_back();
+  }
+}
+
+void IgesRecords::read_directory_line(std::string_view line) {
+  const std::string text(line.substr(0, letter_column));
+  if (begins_entry_) {
+    records_.push_back({.line = static_cast<int>(2 * records_.size() + 1),
+                        .type = integer_field(text, 0),
+                        .matrix = integer_field(text, 6),
+                        .name = ""});
+    lines_.push_back({text, "", ""});
+  } else {
+    records_.back().form = integer_field(text, 4);
+    records_.back().name = name_of(text);
+    lines_.back().second = text;
+  }
+  begins_entry_ = !begins_entry_;
+}
+
+void IgesRecords::read_parameter_line(std::string_view line) {
+  const long owner = std::atol(std::string(line.substr(parameter_width, field_width)).c_str());
+  if (const std::size_t record = at_line(owner); record != npos)
+    lines_[record].parameters += line.substr(0, parameter_width);
+}
+
+std::size_t IgesRecords::at_line(long line) const {
+  const bool is_one = line > 0 && line % 2 == 1 && static_cast<std::size_t>(line / 2) < records_.size();
+  return is_one ? static_cast<std::size_t>(line / 2) : npos;
+}
+
+std::vector<std::string> IgesRecords::values(std::size_t record) const {
+  const std::string_view text = lines_[record].parameters;
+  std::vector<std::string> values;
+  for (std::size_t at = 0;;) {
+    at = std::min(text.find_first_not_of(space, at), text.size());
+    const std::string ends{parameter_delimiter_, record_delimiter_};
+    const std::size_t end =
+        std::min(text.find_first_of(ends, at + hollerith_length(text.substr(at))), text.size());
+    values.emplace_back(trimmed(text.substr(at, end - at)));
+    if (end == text.size() || text[end] == record_delimiter_) break;
+    at = end + 1;
+  }
+  values.erase(values.begin());  // the type
+  return values;
+}
+
+void IgesRecords::set_values(std::size_t record, const std::vector<std::string>& values) {
+  std::string text = std::to_string(records_[record].type);
+  for (const std::string& value : values) (text += parameter_delimiter_) += value;
+  lines_[record].parameters = text + record_delimiter_;
+  changed_ = true;
+}
+
+void IgesRecords::leave_out(std::size_t record) {
+  records_[record].type = 0;
+  lines_[record].first.replace(0, field_width, right(0, field_width));
+  lines_[record].second.replace(0, field_width, right(0, field_width));
+  set_values(record, {});
+}
+
+void IgesRecords::set_free(std::size_t record, int matrix) {
+  constexpr std::size_t status = 8 * field_width, matrix_field = 6 * field_width;
+  lines_[record].first.replace(status + 2, 2, "00");
+  if (records_[record].matrix == 0) {
+    records_[record].matrix = matrix;
+    lines_[record].first.replace(matrix_field, field_width, right(matrix, field_width));
+  }
+  changed_ = true;
+}
+
+std::string IgesRecords::text() const {
+  if (!changed_) return content_;
+  std::string directory, parameters;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const std::size_t first = count + 1;
+    const std::string_view text = lines_[i].parameters;
+    const std::string owner = right(records_[i].line, field_width);
+    for (std::size_t at = 0; at < std::max<std::size_t>(text.size(), 1); at += parameter_width) {
+      std::string piece(text.substr(at, parameter_width));
+      piece.resize(parameter_width, ' ');
+      parameters += line_of(piece + owner, 'P', ++count);
+    }
+    std::string head = lines_[i].first, tail = lines_[i].second;
+    head.replace(field_width, field_width, right(static_cast<long>(first), field_width));
+    tail.replace(3 * field_width, field_width, right(static_cast<long>(count + 1 - first), field_width));
+    directory += line_of(head, 'D', 2 * i + 1) + line_of(tail, 'D', 2 * i + 2);
+  }
+  const std::string end = "S      1G      1D" +
+                          right(2 * static_cast<long>(records_.size()), field_width - 1) + 'P' +
+                          right(static_cast<long>(count), field_width - 1);
+  return head_ + directory + parameters + line_of(end, 'T', 1);
+}
+
+}  // namespace nurbeam
