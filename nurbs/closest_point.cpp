@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "nurbs/golden_section.h"
+#include "nurbs/largest_value.h"
 
 namespace nurbeam {
 namespace {
@@ -125,32 +125,6 @@ class Search {
   const Eigen::Vector3d point_;
   ClosestPoint best_;
 };
-
-/// The larger of the two values that a golden section of [a, b] begins with: none of them lies on a grid.
-template <typename Function>
-double golden_pair_of(const Function& f, double a, double b) {
-  constexpr double ratio = 0.6180339887498949;
-  return std::max(f(b - ratio * (b - a)), f(a + ratio * (b - a)));
-}
-
-/// Largest value of a distance f on [0,1]: samples, and golden section around those above their neighbours.
-/// Where the samples and what lies beside them are round-off, there is nothing to look for.
-template <typename Function>
-double largest_value(const Function& f, double round_off) {
-  constexpr int count = 32;
-  std::array<double, count + 1> samples;
-  for (int i = 0; i <= count; ++i) samples[i] = f(double(i) / count);
-  double largest = *std::max_element(samples.begin(), samples.end());
-  for (int i = 0; i <= count; ++i) {
-    const int before = std::max(i - 1, 0), after = std::min(i + 1, count);
-    if (samples[i] < samples[before] || samples[i] < samples[after]) continue;
-    const double a = double(before) / count, b = double(after) / count;
-    if (samples[i] <= round_off && golden_pair_of(f, a, b) <= round_off) continue;
-    const double u = minimum_place([&f](double v) { return -f(v); }, a, b, 30);
-    largest = std::max(largest, f(u));
-  }
-  return largest;
-}
 
 /// What distances between points of cubics are good to [m].
 double round_off_of(std::span<const RationalCubic> segments) {

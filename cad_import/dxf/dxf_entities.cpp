@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <cstddef>
 #include <stdexcept>
+
+#include "cad_import/dxf/encoded_letters.h"
 
 namespace nurbeam {
 namespace {
@@ -16,129 +18,166 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
-double number_in(const DxfPair& pair) {
-  const std::string text(pair.value);
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  constexpr double largest = 1e15;  // lengths of what is drawn far beyond that take for ever
-  if (text.empty() || *end != '\0' || !(std::abs(value) <= largest))
-    throw std::runtime_error("group " + std::to_string(pair.code) + " is '" + text +
-                             "'; it must be a number from -1e15 to 1e15");
+/// The whole of the text as a number.
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
 
-/// A letter of the Basic Multilingual Plane.
-void append_utf8(unsigned code, std::string& text) {
-  const auto tail = [&](unsigned shift) { text += static_cast<char>(0x80 | ((code >> shift) & 0x3F)); };
-  if (code < 0x80) {
-    text += static_cast<char>(code);
-  } else if (code < 0x800) {
-    text += static_cast<char>(0xC0 | (code >> 6));
-    tail(0);
-  } else {
-    text += static_cast<char>(0xE0 | (code >> 12));
-    tail(6);
-    tail(0);
-  }
-}
+/// The pairs of a content, line by line.
+class PairLines {
+ public:
+  explicit PairLines(std::string_view content) : rest_(content) {}
 
-/// With the letters that drawings before 2007 write as U+00FC behind a backslash.
-std::string decoded(std::string_view value) {
-  constexpr std::string_view mark = "\\U+";
-  constexpr std::size_t digits = 4;
-  std::string text;
-  while (!value.empty()) {
-    unsigned code = 0;
-    const char* const first = value.data() + mark.size();
-    const bool is_letter = value.starts_with(mark) && value.size() >= mark.size() + digits &&
-                           std::from_chars(first, first + digits, code, 16).ptr == first + digits;
-    if (is_letter)
-      append_utf8(code, text);
-    else
-      text += value[0];
-    value.remove_prefix(is_letter ? mark.size() + digits : 1);
+  /// The pairs up to the one of EOF.
+  std::vector<DxfPair> all() {
+    std::vector<DxfPair> pairs;
+    while (!rest_.empty()) {
+      const std::string_view code = next_line();
+      if (code.empty() && trimmed(rest_).empty()) break;
+      pairs.push_back({group_code(code), {}});
+      pairs.back().value = next_line();
+      if (pairs.back().code == 0 && pairs.back().value == "EOF") return pairs;
+    }
+    throw std::runtime_error("the DXF file is truncated: it has no EOF; export or copy it again");
   }
-  return text;
-}
+  /// Blanks and the mark of the end of files of DOS are nothing.
+  std::size_t bytes_behind() const {
+    return rest_.find_first_not_of(" \t\r\n\x1A") == std::string_view::npos ? 0 : rest_.size();
+  }
 
-std::vector<DxfPair> pairs_of(std::string_view content) {
-  std::vector<DxfPair> pairs;
-  int line = 0;
-  const auto next_line = [&] {
-    const std::size_t end = std::min(content.find('\n'), content.size());
-    const std::string_view text = trimmed(content.substr(0, end));
-    content.remove_prefix(std::min(end + 1, content.size()));
-    ++line;
+ private:
+  std::string_view next_line() {
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    const std::string_view text = trimmed(rest_.substr(0, end));
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++line_;
     return text;
-  };
-  while (!content.empty()) {
-    const std::string code(next_line());
-    if (code.empty() && trimmed(content).empty()) break;
-    char* end = nullptr;
-    const long value = std::strtol(code.c_str(), &end, 10);
-    if (code.empty() || *end != '\0' || value < -10 || value > 10000)
-      throw std::runtime_error("line " + std::to_string(line) + " is '" + code.substr(0, 40) +
-                               "'; a DXF file has a group code there; export or copy it again");
-    pairs.push_back({static_cast<int>(value), next_line()});
   }
-  return pairs;
+  int group_code(std::string_view text) const {
+    const std::optional<int> code = number_in<int>(text);
+    if (code && *code >= -10 && *code <= 10000) return *code;
+    throw std::runtime_error("line " + std::to_string(line_) + " is '" + std::string(text.substr(0, 40)) +
+                             "'; a DXF file has a group code there; export or copy it again");
+  }
+
+  std::string_view rest_;
+  int line_ = 0;
+};
+
+/// What stands from each pair of code 0 to the next, given to `take` one after another.
+template <class Take>
+void for_each_entity(std::span<const DxfPair> pairs, const Take& take) {
+  const auto is_first = [](const DxfPair& pair) { return pair.code == 0; };
+  for (auto at = std::find_if(pairs.begin(), pairs.end(), is_first); at != pairs.end();) {
+    const auto next = std::find_if(at + 1, pairs.end(), is_first);
+    take(DxfEntity{at->value, 0, {at + 1, next}});
+    at = next;
+  }
+}
+
+void read_header(std::span<const DxfPair> pairs, DxfDrawing& drawing) {
+  std::string_view variable;
+  for (const DxfPair& pair : pairs) {
+    if (pair.code == 9) variable = pair.value;
+    if (pair.code == 70 && variable == "$INSUNITS") drawing.unit = pair.whole_number();
+    if (pair.code == 70 && variable == "$MEASUREMENT") drawing.measurement = pair.whole_number();
+    if (pair.code == 3 && variable == "$DWGCODEPAGE") drawing.code_page = pair.value;
+  }
+}
+
+const DxfPair* first_of(std::span<const DxfPair> pairs, int code) {
+  const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const DxfPair& p) { return p.code == code; });
+  return at == pairs.end() ? nullptr : &*at;
+}
+
+void append(DxfEntity entity, std::vector<DxfEntity>& list) {
+  entity.number = static_cast<int>(list.size()) + 1;
+  list.push_back(entity);
 }
 
 }  // namespace
 
+double DxfPair::number() const {
+  const std::optional<double> number = number_in<double>(value);
+  constexpr double largest = 1e15;  // lengths of what is drawn far beyond that take for ever
+  if (!number || !(std::abs(*number) <= largest))
+    throw std::runtime_error("group " + std::to_string(code) + " is '" + std::string(value) +
+                             "'; it must be a number from -1e15 to 1e15");
+  return *number;
+}
+
+int DxfPair::whole_number() const {
+  constexpr double largest = 1e9;
+  const double exactly = number();
+  if (!(std::abs(exactly) <= largest))
+    throw std::runtime_error("group " + std::to_string(code) + " is '" + std::string(value) +
+                             "'; it must be a number from -1e9 to 1e9");
+  return static_cast<int>(exactly);
+}
+
 double DxfEntity::number_of(int code, double otherwise) const {
-  const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const DxfPair& p) { return p.code == code; });
-  return at == pairs.end() ? otherwise : number_in(*at);
+  const DxfPair* const pair = first_of(pairs, code);
+  return pair ? pair->number() : otherwise;
+}
+
+int DxfEntity::whole_number_of(int code, int otherwise) const {
+  const DxfPair* const pair = first_of(pairs, code);
+  return pair ? pair->whole_number() : otherwise;
 }
 
 std::string DxfEntity::text_of(int code) const {
-  const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const DxfPair& p) { return p.code == code; });
-  return at == pairs.end() ? "" : decoded(at->value);
+  const DxfPair* const pair = first_of(pairs, code);
+  return pair ? decoded_letters(pair->value) : "";
 }
 
 std::vector<double> DxfEntity::numbers_of(int code) const {
   std::vector<double> values;
   for (const DxfPair& pair : pairs)
-    if (pair.code == code) values.push_back(number_in(pair));
+    if (pair.code == code) values.push_back(pair.number());
   return values;
+}
+
+DxfEntity DxfEntity::part_of_class(std::string_view name) const {
+  constexpr int marker = 100;
+  const auto begin = std::find_if(pairs.begin(), pairs.end(), [&](const DxfPair& pair) {
+    return pair.code == marker && pair.value == name;
+  });
+  if (begin == pairs.end()) return *this;
+  const auto end =
+      std::find_if(begin + 1, pairs.end(), [](const DxfPair& pair) { return pair.code == marker; });
+  return {type, number, {begin + 1, end}};
 }
 
 DxfDrawing dxf_drawing(std::string_view content) {
   DxfDrawing drawing;
-  std::string_view section, variable;
-  bool names_section = false, in_block = false;
-  DxfEntity* open = nullptr;  // whose pairs follow
-  const auto begin = [&](std::string_view type, std::vector<DxfEntity>& list) {
-    open = &list.emplace_back(DxfEntity{std::string(type), static_cast<int>(list.size()) + 1, {}});
+  PairLines lines(content);
+  drawing.pairs = lines.all();
+  drawing.bytes_behind = lines.bytes_behind();
+  std::string_view section;
+  bool in_block = false;
+  const auto add_to_blocks = [&](const DxfEntity& entity) {
+    if (entity.type == "BLOCK") drawing.blocks.push_back({entity, {}});
+    in_block = entity.type == "BLOCK" || (in_block && entity.type != "ENDBLK");
+    if (in_block && entity.type != "BLOCK") append(entity, drawing.blocks.back().entities);
   };
-  const auto begin_in_blocks = [&](std::string_view type) {
-    if (type == "BLOCK") {
-      open = &drawing.blocks.emplace_back(DxfBlock{{std::string(type), 0, {}}, {}}).head;
-      in_block = true;
-    } else if (type == "ENDBLK") {
-      in_block = false;
-    } else if (in_block) {
-      begin(type, drawing.blocks.back().entities);
+  for_each_entity(drawing.pairs, [&](const DxfEntity& entity) {
+    if (entity.type == "SECTION" || entity.type == "ENDSEC") {
+      const DxfPair* const name = first_of(entity.pairs, 2);
+      section = entity.type == "SECTION" && name ? name->value : std::string_view();
+      if (section == "HEADER") read_header(entity.pairs, drawing);
+    } else if (section == "TABLES" && entity.type == "LAYER") {
+      append(entity, drawing.layers);
+    } else if (section == "BLOCKS") {
+      add_to_blocks(entity);
+    } else if (section == "ENTITIES" && entity.type != "EOF") {
+      append(entity, drawing.entities);
     }
-  };
-  for (const DxfPair& pair : pairs_of(content)) {
-    if (pair.code == 0) {
-      open = nullptr;
-      names_section = pair.value == "SECTION";
-      if (names_section || pair.value == "ENDSEC") section = {};
-      if (section == "TABLES" && pair.value == "LAYER") begin(pair.value, drawing.layers);
-      if (section == "BLOCKS") begin_in_blocks(pair.value);
-      if (section == "ENTITIES") begin(pair.value, drawing.entities);
-    } else if (names_section && pair.code == 2) {
-      section = pair.value;
-      names_section = false;
-    } else if (section == "HEADER") {
-      if (pair.code == 9) variable = pair.value;
-      if (pair.code == 70 && variable == "$INSUNITS") drawing.unit = static_cast<int>(number_in(pair));
-    } else if (open) {
-      open->pairs.push_back(pair);
-    }
-  }
+  });
   return drawing;
 }
 

@@ -91,8 +91,6 @@ std::optional<CadFormat> format_of(const std::string& content) {
 std::optional<std::string> incompleteness(const std::string& content, CadFormat format) {
   if (format == CadFormat::step && content.find("END-ISO-10303-21") == std::string::npos)
     return "the STEP file is truncated: it has no END-ISO-10303-21; export or copy it again";
-  if (format == CadFormat::dxf && !without_trailing_space(content).ends_with("EOF"))
-    return "the DXF file is truncated: it does not end with EOF; export or copy it again";
   if (format == CadFormat::brep && content.find("\nTShapes ") == std::string::npos)
     return "the BREP file is truncated: it has no section TShapes; export or copy it again";
   if (format == CadFormat::iges && terminate_line(lines_of(content)).empty()) {

@@ -12,7 +12,8 @@ namespace nurbeam {
 std::optional<CadFormat> format_of(const std::string& content);
 
 /// Why the content is not a whole file of the format (nothing if it is): STEP ends with END-ISO-10303-21,
-/// IGES with a line that has a 'T' in column 73, DXF with EOF; BREP has a section TShapes.
+/// IGES with a line that has a 'T' in column 73; BREP has a section TShapes. That of DXF ends with a pair of
+/// EOF, which its reader sees.
 std::optional<std::string> incompleteness(const std::string& content, CadFormat format);
 
 /// How the lines of an IGES file differ from the numbers of lines in its Terminate section (nothing if

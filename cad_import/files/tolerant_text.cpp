@@ -6,6 +6,7 @@
 
 #include "cad_import/files/cad_format.h"
 #include "cad_import/files/complex_instance.h"
+#include "cad_import/files/drawing_letters.h"
 #include "cad_import/files/real_text.h"
 #include "cad_import/files/simple_operator.h"
 #include "cad_import/files/simple_spline.h"
@@ -15,17 +16,6 @@ namespace nurbeam {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
-
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    const int more = lead < 0x80 ? 0 : lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-    if (lead >= 0x80 && (lead < 0xC2 || lead > 0xF4)) return false;
-    for (int k = 0; k < more; ++k, ++i)
-      if (i >= text.size() || (text[i] & 0xC0) != 0x80) return false;
-  }
-  return true;
-}
 
 /// The place after the string or comment that begins at `at`; `at` itself if none does.
 std::size_t after_quotation(std::string_view text, std::size_t at) {
@@ -157,6 +147,17 @@ std::string in_lines(std::string_view text) {
 
 }  // namespace
 
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i++]);
+    const int more = lead < 0x80 ? 0 : lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
+    if (lead >= 0x80 && (lead < 0xC2 || lead > 0xF4)) return false;
+    for (int k = 0; k < more; ++k, ++i)
+      if (i >= text.size() || (text[i] & 0xC0) != 0x80) return false;
+  }
+  return true;
+}
+
 std::string as_utf8(std::string text) {
   if (is_utf8(text)) return text;
   std::string result;
@@ -174,7 +175,7 @@ std::string tolerant_text(std::string content) {
   if (content.starts_with(byte_order_mark)) content.erase(0, byte_order_mark.size());
   if (has_no_line_ends(content)) return in_lines(content);
   if (format_of(content) == CadFormat::step) return tolerant_step(as_utf8(std::move(content)));
-  if (format_of(content) == CadFormat::dxf) return as_utf8(std::move(content));
+  if (format_of(content) == CadFormat::dxf) return drawing_in_utf8(std::move(content));
   return content;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 namespace nurbeam {
 
@@ -9,9 +10,11 @@ namespace nurbeam {
 /// no comma before a closing parenthesis; reals without point (1E-3, or 25 where only a real may stand) or
 /// with a small e as reals; complex instances of splines without weights and of transformation operators as
 /// simple ones, the parts of others in alphabetical order; bytes that are no UTF-8 taken for Latin-1. IGES:
-/// lines of 80 characters where the file has no line ends. DXF: Latin-1 as in STEP. Any other text stays as
-/// it is.
+/// lines of 80 characters where the file has no line ends. DXF: in UTF-8 (drawing_letters.h). Any other text
+/// stays as it is.
 std::string tolerant_text(std::string content);
+
+bool is_utf8(std::string_view text);
 
 /// The text if it is valid UTF-8, else with its bytes taken for Latin-1.
 std::string as_utf8(std::string text);

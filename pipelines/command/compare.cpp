@@ -5,22 +5,17 @@
 #include <ostream>
 
 #include "cad_import/import_curves.h"
-#include "nurbs/bezier_path.h"
-#include "nurbs/closest_point.h"
+#include "nurbs/curve_distance.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 
 namespace nurbeam {
 
 namespace {
 
-/// The segments of all curves, to measure distances to.
-std::vector<RationalCubic> all_segments(const std::vector<ImportedCurve>& curves, double tolerance) {
-  std::vector<RationalCubic> all;
-  for (const ImportedCurve& curve : curves) {
-    const BezierPath path = BezierPath::from_nurbs(curve.curve, tolerance);
-    all.insert(all.end(), path.segments.begin(), path.segments.end());
-  }
-  return all;
+std::vector<NurbsCurve> curves_of(const std::vector<ImportedCurve>& imported) {
+  std::vector<NurbsCurve> curves;
+  for (const ImportedCurve& curve : imported) curves.push_back(curve.curve);
+  return curves;
 }
 
 std::string name_of(const ImportReport& report, std::size_t curve) {
@@ -40,16 +35,13 @@ double size_of(const std::vector<ImportedCurve>& a, const std::vector<ImportedCu
 
 }  // namespace
 
-FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b,
-                             double tolerance) {
-  const std::vector<RationalCubic> segments = all_segments(b, tolerance);
-  const ClosestPoints target(segments);
+FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b) {
+  const std::vector<NurbsCurve> targets = curves_of(b);
+  const CurveDistance target(targets, 1e-8 * size_of(a, b));
   FarthestPoint farthest;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    for (const RationalCubic& segment : BezierPath::from_nurbs(a[i].curve, tolerance).segments) {
-      const double distance = target.largest_distance([&](double u) { return segment.point(u); });
-      if (distance > farthest.distance) farthest = {distance, i};
-    }
+    const double distance = target.largest_from(a[i].curve);
+    if (distance > farthest.distance) farthest = {distance, i};
   }
   return farthest;
 }
@@ -67,11 +59,10 @@ int compare_files(const std::filesystem::path& a, const std::filesystem::path& b
   }
   const double size = size_of(reports[0].curves, reports[1].curves);
   const double tolerance = given_tolerance.value_or(1e-6 * size);
-  const double approximation = 0.01 * tolerance;
   double largest = 0;
   for (const int from : {0, 1}) {
     const ImportReport &source = reports[from], &target = reports[1 - from];
-    const FarthestPoint farthest = farthest_point(source.curves, target.curves, approximation);
+    const FarthestPoint farthest = farthest_point(source.curves, target.curves);
     largest = std::max(largest, farthest.distance);
     out << "from " << source.file << " to " << target.file << ": " << farthest.distance << " m ("
         << name_of(source, farthest.curve) << ")\n";

@@ -16,9 +16,8 @@ struct FarthestPoint {
 };
 
 /// From every point of the curves `a` to the nearest of all curves `b` (so a curve that is cut in two in one
-/// of them makes no difference). Curves of degree above 3 are taken as cubics within `tolerance` [m].
-FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b,
-                             double tolerance);
+/// of them makes no difference), whatever their degree.
+FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vector<ImportedCurve>& b);
 
 /// Prints the largest distance between the curves of two CAD files, both ways. Returns the exit code: 0 up to
 /// the tolerance [m] (a millionth of the size of all curves, if none is given), 1 above it, 2 when a file

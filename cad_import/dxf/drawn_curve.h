@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "nurbs/nurbs_curve.h"
+
+namespace nurbeam {
+
+/// A curve in the unit of its drawing.
+struct DrawnCurve {
+  std::string entity;  ///< its kind
+  NurbsCurve curve;
+  std::string note = {};  ///< what was made of it that the drawing does not say; "" for nothing
+};
+
+}  // namespace nurbeam
