@@ -18,9 +18,10 @@ those of the case file (docs/case-reference.md).
 
 from ._core import version as __version__
 from .curves import ClosestPoint, Curve, Curves, read, write
-from .errors import CadError, CaseError, CaseWarning, Error, Finding, RunError
-from .model import Beam, Body, Circle, Load, Material, Model, Section, load, schema
-from .results import BeamShape, ConnectorPull, Histories, Mode, Motion, Results, Snapshot
+from .errors import CadError, CaseError, CaseWarning, Error, Finding
+from .loads import Load
+from .model import Beam, Body, Circle, Material, Model, Section, load, schema
+from .results import BeamShape, ConnectorPull, Histories, Mode, Motion, Results, RunError, Snapshot
 from .simulation import Checkpoint, Simulation
 from .study import Study, study
 from .system import System

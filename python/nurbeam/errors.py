@@ -5,14 +5,11 @@ from __future__ import annotations
 import difflib
 import sys
 import warnings
-from typing import TYPE_CHECKING, Any, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
-
-if TYPE_CHECKING:
-    from .results import Results
+from typing import Any, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
 
 T = TypeVar("T")
 
-__all__ = ["Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding"]
+__all__ = ["Error", "CaseError", "CadError", "CaseWarning", "Finding"]
 
 
 class Finding(NamedTuple):
@@ -56,18 +53,6 @@ class CadError(Error, OSError):
     def __reduce__(self) -> Any:
         """Pickled as its findings: other processes raise it whole."""
         return type(self), (self.findings,)
-
-
-class RunError(Error, RuntimeError):
-    """A run that has ended before its end. `results` are the results until then, None where there are none."""
-
-    def __init__(self, message: str, results: Results | None = None):
-        self.results = results
-        super().__init__(message)
-
-    def __reduce__(self) -> Any:
-        """Pickled with the results."""
-        return type(self), (str(self), self.results)
 
 
 class CaseWarning(UserWarning):

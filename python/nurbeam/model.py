@@ -15,15 +15,16 @@ import numpy.typing as npt
 
 from . import _core
 from .curves import Curve
-from .errors import CaseError, Error, Finding, RunError, findings_of, tell, unknown
+from .errors import CaseError, Error, Finding, findings_of, tell, unknown
+from .loads import Load
 from .progress import progress_bar
-from .results import Results
+from .results import Results, RunError
 from .simulation import Checkpoint, Simulation
 
 if TYPE_CHECKING:
     from .system import System
 
-__all__ = ["Model", "load", "Circle", "Section", "Material", "Beam", "Body", "Load", "schema"]
+__all__ = ["Model", "load", "Circle", "Section", "Material", "Beam", "Body", "schema"]
 
 Quantity = Union[float, str]
 """A number in SI units, or a text with a unit: "5 mm"."""
@@ -67,16 +68,6 @@ class Beam(_Named):
 
 class Body(_Named):
     """A body of a model, as `model.add_body` returns it; wherever a body is asked for its name does too."""
-
-
-class Load:
-    """A load of a model; `number` is its place among the loads of the case."""
-
-    def __init__(self, number: int):
-        self.number = number
-
-    def __repr__(self) -> str:
-        return f"<Load {self.number}>"
 
 
 def _json(value: Any) -> Any:

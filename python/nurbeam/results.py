@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-__all__ = ["Results", "Histories", "Snapshot", "BeamShape", "Motion", "Mode"]
+__all__ = ["Results", "RunError", "Histories", "Snapshot", "BeamShape", "Motion", "Mode"]
 
 Array = npt.NDArray[np.float64]
 
@@ -394,7 +394,9 @@ class Results(Sequence[Snapshot]):
         """Histories over time, by their names: `results.plot("trolley.speed")`; of a vector its components."""
         from . import plots
 
-        return plots.histories(self, names, ax)
+        of = self.histories
+        shown = names or [name for name in of if name.startswith("energy.")]
+        return plots.histories(self.times, {name: (of[name], of.unit(name)) for name in shown}, ax)
 
     def plot_shape(
         self, times: Sequence[float] | None = None, ax: matplotlib.axes.Axes | None = None
@@ -402,7 +404,19 @@ class Results(Sequence[Snapshot]):
         """The beams and bodies at some times [s], six when omitted, seen along the axis in which they extend least."""
         from . import plots
 
-        return plots.shapes(self, times, ax)
+        if times is None:
+            chosen = [self[int(i)] for i in np.unique(np.linspace(0, len(self) - 1, 6).round())]
+        else:
+            chosen = [self.at(time) for time in times]
+        pictures = [
+            plots.Picture(
+                snapshot.time,
+                [beam.points() for beam in snapshot.beams.values()],
+                [motion.position for motion in snapshot.bodies.values()],
+            )
+            for snapshot in chosen
+        ]
+        return plots.shapes(pictures, ax)
 
     def plot_along(
         self,
@@ -415,7 +429,12 @@ class Results(Sequence[Snapshot]):
         beam and at the last time when omitted. The names are those of `BeamShape.field`."""
         from . import plots
 
-        return plots.along(self, field, beam, time, ax)
+        snapshot = self[-1] if time is None else self.at(time)
+        name = self.beams[0] if beam is None else beam
+        if name not in snapshot.beams:
+            raise KeyError(unknown("beam", name, snapshot.beams))
+        shape = snapshot.beams[name]
+        return plots.along(shape.s, shape.field(field), f"{field} of {name}", field, snapshot.time, ax)
 
     def export(
         self, file: str | os.PathLike[str], time: float | None = None, unit: str = "mm", schema: str = "ap214"
@@ -427,3 +446,15 @@ class Results(Sequence[Snapshot]):
         times = self.times
         span = f"{len(times)} snapshots" + (f", {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else "")
         return f'<Results of "{self.name}": {span}>'
+
+
+class RunError(Error, RuntimeError):
+    """A run that has ended before its end. `results` are the results until then, None where there are none."""
+
+    def __init__(self, message: str, results: Results | None = None):
+        self.results = results
+        super().__init__(message)
+
+    def __reduce__(self) -> Any:
+        """Pickled with the results."""
+        return type(self), (str(self), self.results)

@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import RunError, findings_of, tell
-from .results import Results, Snapshot
+from .errors import findings_of, tell
+from .loads import Load
+from .results import Results, RunError, Snapshot
 
 if TYPE_CHECKING:
-    from .model import Load
     from .system import System
 
 __all__ = ["Simulation", "Checkpoint"]

@@ -19,8 +19,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import CaseError, Finding, RunError, tell, unknown
+from .errors import CaseError, Finding, tell, unknown
 from .model import _json, _not_finite, _rename_files
+from .results import RunError
 
 if TYPE_CHECKING:
     import pandas
