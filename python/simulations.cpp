@@ -11,6 +11,7 @@
 #include "fem/motion/run/simulation.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/model/model_snapshot.h"
 #include "pipelines/results/restart_file.h"
 #include "pipelines/run/mode_run.h"
 #include "pipelines/run/run.h"
@@ -43,7 +44,7 @@ py::dict report_facts(const SimulationReport& report, const BuiltCase& c,
   py::list events;
   for (const RunEvent& event : report.events) events.append(event_facts(event, c));
   return py::dict(
-      "status"_a = outcome_text(report, c.built().model), "done"_a = report.status == SimulationStatus::done,
+      "status"_a = outcome_in_world(report, c.built()), "done"_a = report.status == SimulationStatus::done,
       "time"_a = report.time, "steps"_a = report.steps, "rejected_steps"_a = report.rejected_steps,
       "newton_iterations"_a = report.newton_iterations, "seconds"_a = report.motion_seconds,
       "energy_drift"_a = report.energy_drift, "events"_a = events, "warnings"_a = plain(warnings));

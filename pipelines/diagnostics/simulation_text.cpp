@@ -91,6 +91,21 @@ const char* step_hint(StepStatus status) {
   return "; a shorter \"step\" from the start, or a \"tolerance\", may help";
 }
 
+// What moves where the tangent is singular.
+std::string free_part_text(const Failure& failure) {
+  const std::string singular = "the tangent is singular (is the model held everywhere?)";
+  if (!failure.loose) return singular;
+  const LoosePart& loose = *failure.loose;
+  const auto component = [](double value) { return text_of(std::abs(value) < 1e-3 ? 0 : value, 3); };
+  const Eigen::Vector3d& d = loose.direction;
+  return singular + ": nothing holds " +
+         (loose.is_body ? "body \"" + loose.name + "\"" : "beam \"" + loose.name + "\"") +
+         ": in the motion that is free " +
+         (loose.is_body ? "it moves" : "its place at s = " + text_of(loose.s, 6) + " m moves furthest") +
+         " along [" + component(d[0]) + ", " + component(d[1]) + ", " + component(d[2]) +
+         "]; add a support that holds it there, or clamp one that only pins";
+}
+
 std::string failure_text(const Failure& failure, const BeamModel& model) {
   const std::string time = text_of(failure.time, 8) + " s", places = places_text(failure.places, model);
   switch (failure.kind) {
@@ -128,7 +143,8 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
     case Failure::Kind::bodies_meet:
       return meeting_text(failure, model) + places;
     case Failure::Kind::equilibrium:
-      return "no static equilibrium was found: " + reason_of(failure.equilibrium.status) +
+      return "no static equilibrium was found: " +
+             (failure.loose ? free_part_text(failure) : reason_of(failure.equilibrium.status)) +
              "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) +
              (failure.equilibrium.status == StaticStatus::singular_matrix ? "" : slope_hint(model));
     case Failure::Kind::unstable_state:
@@ -138,7 +154,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the tangent is not symmetric: loads that follow the section and moments in space have no energy, "
              "and without one there are neither natural frequencies nor buckling factors";
     case Failure::Kind::not_held:
-      return "the tangent is singular (is the model held everywhere?)";
+      return free_part_text(failure);
     case Failure::Kind::nothing_buckles:
       return "nothing buckles under the loads: not before they bend the model by its own size";
     case Failure::Kind::eigenvalues:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pipelines/diagnostics/simulation_text.h"
+
 namespace nurbeam {
 
 namespace {
@@ -78,6 +80,13 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
                    constraint));
   for (const Connector& connector : built.model.connectors) names.connectors.push_back(connector.name);
   return names;
+}
+
+std::string outcome_in_world(const SimulationReport& report, const BuiltModel& built) {
+  SimulationReport in_world = report;
+  if (in_world.failure && in_world.failure->loose)
+    in_world.failure->loose->direction = built.frame.direction_to_world(in_world.failure->loose->direction);
+  return outcome_text(in_world, built.model);
 }
 
 }  // namespace nurbeam

@@ -18,6 +18,7 @@
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/simulation_text.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/model/model_snapshot.h"
 #include "pipelines/model/model_summary.h"
 #include "pipelines/report/report.h"
 #include "pipelines/results/file_hash.h"
@@ -116,7 +117,7 @@ class Run {
       frames ? write_report(options_.out, *frames) : write_report(options_.out);
     }
     if (simulated.status != SimulationStatus::done && !thrown_)
-      tell(case_.path.string() + ": error: " + outcome_text(simulated, built_.model));
+      tell(case_.path.string() + ": error: " + outcome_in_world(simulated, built_));
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
     if (thrown_) std::rethrow_exception(thrown_);
     return exit_code_of(simulated.status);
@@ -219,7 +220,7 @@ class Run {
   }
 
   void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
-    summary_.status = outcome_text(simulated, built_.model);
+    summary_.status = outcome_in_world(simulated, built_);
     summary_.wall_times.output = outputs.seconds();
     summary_.wall_times.motion = simulated.motion_seconds;
     summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),

@@ -132,7 +132,7 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
   if (too_long)
     return end(variant, VariantStatus::timed_out, "took longer than " + text_of(*study.time_limit) + " s");
   if (run.status != SimulationStatus::done)
-    return end(variant, VariantStatus::failed, outcome_text(run, built.value->model));
+    return end(variant, VariantStatus::failed, outcome_in_world(run, *built.value));
   const ExpressionScope scope =
       scope_of_run(study, variant.values, histories, built.value->model, run.events);
   fill_quantities(study, scope, variant);

@@ -20,6 +20,11 @@ class MechanismSearch {
     equations_.rescale(at_, ForceSizes(system).largest_force(at_));
   }
 
+  std::optional<Vector> softest_motion() {
+    const Vector motion = softest();
+    return motion.size() > 0 ? std::optional<Vector>(motion.cwiseProduct(scale_)) : std::nullopt;
+  }
+
   std::optional<Vector> run() {
     const Vector motion = softest();
     if (motion.size() == 0) return std::nullopt;
@@ -95,8 +100,18 @@ class MechanismSearch {
 
 }  // namespace
 
+namespace {
+
+constexpr int most_coordinates = 10000;  // a chain of so many is as soft as round-off
+
+}  // namespace
+
+std::optional<Vector> softest_motion(const SecondOrderSystem& system, const State& state) {
+  if (system.coordinate_count() > most_coordinates) return std::nullopt;
+  return MechanismSearch(system, resting(system, state)).softest_motion();
+}
+
 std::optional<Vector> find_mechanism(const SecondOrderSystem& system, const State& equilibrium) {
-  constexpr int most_coordinates = 10000;  // a chain of so many is as soft as round-off
   if (system.coordinate_count() > most_coordinates) return std::nullopt;
   return MechanismSearch(system, resting(system, equilibrium)).run();
 }

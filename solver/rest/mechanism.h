@@ -12,4 +12,8 @@ namespace nurbeam {
 /// any, or a sum. What the system throws arrives unchanged.
 std::optional<Eigen::VectorXd> find_mechanism(const SecondOrderSystem& system, const State& equilibrium);
 
+/// (n) The motion that the tangent resists least, its largest component over its coordinate's scale 1, where
+/// the tangent is singular to round-off; nothing elsewhere.
+std::optional<Eigen::VectorXd> softest_motion(const SecondOrderSystem& system, const State& state);
+
 }  // namespace nurbeam

@@ -357,6 +357,22 @@ TEST(MisleadingCases, AnExplicitMethodSaysHowLongItsStepsMayBe) {
   EXPECT_EQ(with(1.1 * step), 3);
 }
 
+// A bar that is pinned at one end turns about the pin: its other end moves furthest, across the bar.
+TEST(MisleadingCases, SaysWhatIsFreeToTurn) {
+  const CaseRun run = run_misleading_text(R"({
+    "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [0, 0, 2]] }, "section": { "radius": 0.01 },
+                "material": { "density": 7800, "youngs_modulus": 2.1e11 } }],
+    "supports": [{ "beam": "bar", "at": "start", "type": "pinned" }],
+    "loads": [{ "beam": "bar", "at": "end", "force": [1, 0, 0] }],
+    "analysis": { "type": "static" }, "output": { "report": false } })");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(
+      run.says("nothing holds beam \"bar\": in the motion that is free its place at s = 2 m moves furthest "
+               "along [1, 0, 0]"))
+      << run.messages;
+}
+
 TEST(MisleadingCases, WhatIsNotHeldIsNotACable) {
   const CaseRun run = run_misleading_text(R"({
     "nurbeam": 1,
@@ -367,6 +383,7 @@ TEST(MisleadingCases, WhatIsNotHeldIsNotACable) {
     "analysis": { "type": "static" }, "output": { "report": false } })");
   EXPECT_EQ(run.code, 3);
   EXPECT_TRUE(run.says("is the model held everywhere?")) << run.messages;
+  EXPECT_TRUE(run.says("nothing holds beam \"b\"")) << run.messages;
   EXPECT_FALSE(run.says("discontinuous")) << run.messages;
 }
 

@@ -59,6 +59,8 @@ struct Failure {
   double growth = 0;  ///< [1/s]
   int connector = -1;
   double force = 0;  ///< [N]
+  std::optional<LoosePart> loose =
+      {};  ///< what moves furthest in the motion that nothing holds, where one is found
 };
 
 /// The least and the greatest of an energy in the frames so far [J].

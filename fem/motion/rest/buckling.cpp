@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/motion/rest/find_loose_part.h"
 #include "fem/system/observables.h"
 #include "fem/system/with_assembly.h"
 #include "solver/algebra/eigenpairs.h"
@@ -150,7 +151,8 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, int count
   BeamModel model = at.system->model();  // with the lengths of its connectors that were found
   model.forces = forces;
   const int n = at.system->coordinate_count();
-  if (moves_rigidly(at, kkt, between)) return Failure{.kind = Failure::Kind::not_held};
+  if (moves_rigidly(at, kkt, between))
+    return Failure{.kind = Failure::Kind::not_held, .loose = find_free_part(at)};
   std::vector<bool> held;  // or at rest against a stop or an end
   for (std::size_t j = 0; j < model.riders.size(); ++j)
     held.push_back(row_of_place(*at.system, static_cast<int>(j)).has_value());

@@ -12,4 +12,7 @@ namespace nurbeam {
 /// `interrupted` returns true.
 std::optional<LoosePart> find_loose_part(const MeshedState& at, const std::function<bool()>& interrupted);
 
+/// What moves furthest in the motion that nothing holds, where the tangent is singular; nothing elsewhere.
+std::optional<LoosePart> find_free_part(const MeshedState& at);
+
 }  // namespace nurbeam

@@ -15,6 +15,7 @@
 #include "fem/motion/remesh/recentring.h"
 #include "fem/motion/remesh/sliding_bodies.h"
 #include "fem/motion/rest/descent.h"
+#include "fem/motion/rest/find_loose_part.h"
 #include "fem/motion/rest/snap.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
@@ -220,7 +221,9 @@ class RestSearch {
   bool hold_in_equilibrium(MeshPlan plan) {
     const StaticReport found = equilibrium_of(std::move(plan));
     if (found.status == StaticStatus::converged) return true;
-    return goes_on(Failure{.kind = Failure::Kind::equilibrium, .equilibrium = found});
+    Failure failure{.kind = Failure::Kind::equilibrium, .equilibrium = found};
+    if (found.status == StaticStatus::singular_matrix) failure.loose = find_free_part(at_);
+    return goes_on(failure);
   }
   StaticReport equilibrium_of(MeshPlan plan) {
     const std::vector<bool> held(model().riders.size(), true);
