@@ -38,6 +38,7 @@ set(homes
   "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/model_digest\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h)"
   "openturns/.*"                                                                  "pipelines/study/openturns_study\\.h"
   "mpi\\.h"                                                                       "pipelines/study/mpi_engine\\.cpp"
+  "iconv\\.h"                                                                       "cad_import/files/code_page\\.cpp"
   "zlib\\.h"                                                                      "cad_import/program/unpacked\\.cpp"
   "netcdf\\.h"                                                                    "pipelines/results/netcdf_file\\.cpp"
   "CLI/.*"                                                                        "pipelines/command/command_line\\.cpp"
