@@ -8,6 +8,9 @@ namespace nurbeam {
 
 namespace {
 
+// Of a step.
+Range time_step() { return shapes::plausible(1e-12, 1e9); }
+
 // Steps are fixed unless there is none: then the integrator chooses them by the tolerance.
 IntegratorSettings read_integrator(const Json& json, std::optional<double> tolerance, bool fixed_steps,
                                    Findings& findings) {
@@ -53,6 +56,56 @@ std::vector<double> read_load_factors(const Json& json, Findings& findings) {
 }
 
 }  // namespace
+
+Shape analysis_shape() {
+  using namespace shapes;
+  const Shape integrator = object(
+      {{"type", choice({"generalized-alpha", "radau", "ida", "rk4"}),
+        "radau: Radau IIA of order five, for adaptive or long steps; ida: SUNDIALS' BDF of variable order, slow "
+        "on stiff beams without damping; rk4: explicit, fixed `step`, no sliding bodies; generalized-alpha when "
+        "omitted"},
+       {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+        "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"}});
+  const Shape length_control =
+      object({{"min", quantity(Dimension::number, {.lower = 0, .upper = 1, .open = true}),
+               "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},
+              {"max", quantity(Dimension::number, {.lower = 1, .open = true}),
+               "a longer element is split; 1.15 when omitted (the paper's: 1.5)"}});
+  const Shape modes = object(
+      {{"count", integer({.lower = 1, .upper = 1000}), "how many, from the lowest on; 10 when omitted"},
+       {"about", choice({"equilibrium", "drawn"}),
+        "the state: in equilibrium under all loads, for buckling under gravity; or as drawn, without loads; "
+        "equilibrium when omitted"},
+       {"bodies", choice({"held", "free"}),
+        "sliding bodies are held at their `at`, or slide without friction, about where they rest; held when "
+        "omitted"}});
+  return object(
+      {{"type", choice({"dynamic", "static", "modes", "buckling"}),
+        "motion, equilibrium, natural frequencies, or the factors of the loads under which it "
+        "buckles; dynamic when omitted"},
+       {"modes", modes, "of modes and buckling"},
+       {"initial", choice({"as-drawn", "equilibrium"}),
+        "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
+        "when omitted"},
+       {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
+        "end of the motion; a dynamic analysis needs it"},
+       {"step", quantity(Dimension::time, time_step()),
+        "fixed step; with ida how often length control looks"},
+       {"tolerance",
+        quantity(Dimension::number,
+                 {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
+        "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
+       {"load_steps",
+        either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
+        "of a static analysis: the state under each of these factors of the loads (weight is always there "
+        "in full), increasing, or under so many equal steps up to 1; tables over time are read at the "
+        "factor, and a force that moves is there in full where it is at that time; when omitted one state under the "
+        "full loads, at the time 0, or 1 where a table or a moving force is read"},
+       {"integrator", integrator, "time integrator"},
+       {"length_control", length_control,
+        "when elements beside a sliding body change, in standard element lengths"}},
+      {{{"step", "tolerance"}, false}});
+}
 
 CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   CaseAnalysis analysis;

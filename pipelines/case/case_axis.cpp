@@ -9,6 +9,45 @@
 
 namespace nurbeam {
 
+Shape axis_shape() {
+  using namespace shapes;
+  const Shape nurbs =
+      object({{"degree", integer(from(1)), "degree of the curve", required},
+              {"knots", array(quantity(Dimension::number), 4),
+               "full non-decreasing knots, both ends included", required},
+              {"control_points", array(point(), 2), "plain (not weighted) control points", required},
+              {"weights", array(quantity(Dimension::number, positive()), 2),
+               "one per control point; 1 when omitted"}});
+  const Shape arc =
+      object({{"center", point(), "centre of the circle", required},
+              {"start", point(), "start point", required},
+              {"end", point(), "end point", required},
+              {"normal", vector(Dimension::number),
+               "the arc turns by the right hand about it; a whole circle where start and end are one point",
+               required}});
+  return object(
+      {{"file", any_text(),
+        std::string(cad_formats) +
+            " file, which may be packed (.stpZ, .zip, .gz), relative to the case file"},
+       {"curve", either(any_text(), integer(from(1))),
+        "name or index (from 1) as `nurbeam inspect` prints them", false, "file"},
+       {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
+       {"part", any_text(),
+        "only curves of this part (STEP), group (IGES) or block (DXF): its name, or the end of its path",
+        false, "file"},
+       {"layer", any_text(), "only curves of this layer (STEP, DXF) or level (IGES)", false, "file"},
+       {"colour", any_text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
+       {"near", point(), "the chain of curves nearest to this point", false, "file"},
+       {"longest", boolean(), "the longest chain of curves", false, "file"},
+       {"chains", choice({"all"}), "every chain becomes a beam: \"name 1\", \"name 2\", ...", false, "file"},
+       {"gap", quantity(Dimension::length, not_negative()),
+        "ends of curves up to this far apart meet; the file's own resolution when omitted", false, "file"},
+       {"nurbs", nurbs, "an inline NURBS curve"},
+       {"polyline", array(point(), 2), "straight pieces through these points"},
+       {"arc", arc, "a circular arc"}},
+      {{{"file", "nurbs", "polyline", "arc"}, required}, {{"curve", "near", "longest", "chains"}, false}});
+}
+
 namespace {
 
 std::vector<std::string> cad_files_in(const std::filesystem::path& directory) {

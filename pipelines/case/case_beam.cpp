@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "cad_import/files/cad_file_name.h"
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_axis.h"
 #include "pipelines/case/case_keys.h"
@@ -14,6 +15,13 @@
 namespace nurbeam {
 
 namespace {
+
+// [width, height].
+Shape sides() {
+  Shape shape = shapes::array(shapes::quantity(Dimension::length, shapes::plausible(1e-9, 1e4)), 2);
+  shape.most_items = 2;
+  return shape;
+}
 
 CaseSection pipe(const Json& section, const std::string& path, Findings& findings) {
   const double outer = number(section, "radius"), inner = number(section, "bore", 0);
@@ -102,15 +110,9 @@ CaseMaterial read_material(const Json& beam, const std::string& path, Findings& 
         findings.error(path, in_quotes(key) + " is missing (" + what +
                                  "); give it, or the \"name\" of a standard "
                                  "material");
-  CaseMaterial material{.density = number(json, "density"),
-                        .youngs_modulus = number(json, "youngs_modulus"),
-                        .damping = number(json, "damping", 0),
-                        .shear_modulus = optional_number(json, "shear_modulus"),
-                        .poissons_ratio = optional_number(json, "poissons_ratio"),
-                        .thermal_expansion = optional_number(json, "thermal_expansion"),
-                        .mass_damping = number(json, "mass_damping", 0),
-                        .stiffness_damping = number(json, "stiffness_damping", 0),
-                        .name = name};
+  CaseMaterial material;
+  material_fields().read(json, path, material, findings);
+  material.name = name;
   if (!standard) return material;
   if (!has(json, "density")) material.density = standard->density;
   if (!has(json, "youngs_modulus")) material.youngs_modulus = standard->youngs_modulus;
@@ -154,17 +156,6 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
   return sizes;
 }
 
-/// Where the section's y axis points.
-Orientation read_orientation(const Json& json) {
-  Orientation orientation;
-  if (has(json, "up")) orientation = {Orientation::Rule::up, vector(json, "up")};
-  if (has(json, "start")) orientation.direction = vector(json, "start");
-  if (flag(json, "frenet")) orientation.rule = Orientation::Rule::frenet;
-  for (const auto& [s, degrees] : time_table(json, "twist"))
-    orientation.twist.emplace_back(s, degrees * std::numbers::pi / 180);
-  return orientation;
-}
-
 /// Reports what a beam cannot be with torsion.
 void check_torsion(const Json& json, const std::string& path, const CaseBeam& beam, Findings& findings) {
   const auto refuse = [&](const std::string& key, const std::string& why) {
@@ -205,16 +196,6 @@ void check_free_length(const CaseBeam& beam, Findings& findings) {
           child(beam.path, key),
           "is for the axial strain \"ends-and-mean\", but the beam has the papers' \"pointwise\" one; "
           "leave one of them out");
-}
-
-std::optional<CaseVelocity> read_velocity(const Json& json) {
-  if (json.empty()) return {};
-  CaseVelocity velocity;
-  velocity.translation = vector(json, "translation", velocity.translation);
-  velocity.rotation = vector(json, "rotation", velocity.rotation);
-  velocity.about = vector(json, "about", velocity.about);
-  velocity.along = number(json, "along", 0);
-  return velocity;
 }
 
 /// Of the papers' elements (constant weights, no metric, form P) the pointwise strain when omitted.
@@ -262,51 +243,67 @@ void check_guide(const Json& json, const CaseBeam& beam, Findings& findings) {
 
 }  // namespace
 
+Shape section_shape() {
+  using namespace shapes;
+  const Shape profile =
+      object({{"file", any_text(),
+               std::string(cad_formats) + " file with an outline and its holes, relative to the case file",
+               required},
+              {"in_plane", choice({"y", "x"}),
+               "the profile's axis that lies in the plane of a planar model; y when omitted"}});
+  const Shape size = quantity(Dimension::length, plausible(1e-9, 1e4));
+  const Shape i_section = object({{"width", size, "of the flanges", required},
+                                  {"height", size, "from outside to outside", required},
+                                  {"flange", size, "thickness of the flanges", required},
+                                  {"web", size, "thickness of the web", required}});
+  const Shape rope = object(
+      {{"diameter", size, "over all", required},
+       {"metallic_area", quantity(Dimension::area, plausible(1e-18, 1e8)), "of all wires together", required},
+       {"wires", integer({.lower = 1, .upper = 10000}),
+        "how many, each of which bends by itself; 114 (6 x 19) when omitted"},
+       {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)),
+        "where it is known better than from the wires"}});
+  return object(
+      {{"radius", quantity(Dimension::length, plausible(1e-9, 1e4)), "radius of a round section"},
+       {"bore", quantity(Dimension::length, not_negative()), "inner radius of a pipe; 0 when omitted", false,
+        "radius"},
+       {"rectangle", sides(),
+        "[width, height] of a rectangle; the height lies in the plane of a planar model, and "
+        "along the section's y axis"},
+       {"i_section", i_section, "of an I, upright along the section's y axis"},
+       {"rope", rope, "wire rope"},
+       {"area", quantity(Dimension::area, plausible(1e-18, 1e8)), "cross-section area"},
+       {"second_moment", quantity(Dimension::second_moment, plausible(1e-36, 1e16)), "second moment of area",
+        false, "area"},
+       {"second_moments", array(quantity(Dimension::second_moment, plausible(1e-36, 1e16)), 2),
+        "[I_x, I_y] about the section's own axes, of a beam with torsion; y is where the orientation points",
+        false, "area"},
+       {"product", quantity(Dimension::second_moment), "I_xy, the integral of x y; 0 when omitted", false,
+        "second_moments"},
+       {"torsion_constant", quantity(Dimension::second_moment, plausible(1e-36, 1e16)),
+        "St Venant's; when omitted that of the profile, or I_x + I_y of a round section"},
+       {"extreme_fibre", quantity(Dimension::length, plausible(1e-9, 1e4)),
+        "greatest distance of the section from its axis of bending; without it no stress is given", false,
+        "area"},
+       {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
+       {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
+      {{{"radius", "rectangle", "i_section", "rope", "area", "profile", "from"}, required},
+       {{"second_moment", "second_moments"}, false}});
+}
+
 CaseBeam read_beam(const Json& json, const std::string& path, const std::filesystem::path& directory,
                    Findings& findings) {
   CaseBeam beam;
   beam.path = path;
-  beam.name = text(json, "name");
-  beam.rigid = flag(json, "rigid");
+  beam_fields().read(json, path, beam, findings);
   beam.axis = read_beam_axis(part(json, "axis"), child(path, "axis"), directory, findings);
   beam.section = read_section(part(json, "section"), directory, child(path, "section"), findings);
   beam.material = read_material(json, child(path, "material"), findings);
-  const Json& elements = part(json, "elements");
-  beam.elements = {.count = optional_integer(elements, "count"),
-                   .max_length = optional_number(elements, "max_length"),
-                   .per_segment = optional_integer(elements, "per_segment"),
-                   .tolerance = optional_number(elements, "tolerance"),
-                   .grading = number(elements, "grading", 0)};
-  beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
-  beam.ring = flag(json, "closed");
-  beam.corners = chosen<Corners>(json, "corners",
-                                 {{"error", Corners::error},
-                                  {"smooth", Corners::smooth},
-                                  {"rigid", Corners::rigid},
-                                  {"hinge", Corners::hinge}});
-  const double default_degrees = beam.corners == Corners::smooth ? 5 : 0;
-  beam.smooth_angle = number(json, "smooth_up_to", default_degrees) * std::numbers::pi / 180;
-  beam.element = chosen<ElementKind>(
-      json, "element", {{"ale-rancf", ElementKind::ale_rancf}, {"ale-ancf", ElementKind::ale_ancf}});
-  beam.weights = chosen<WeightRule>(json, "weights",
-                                    {{"material", WeightRule::material}, {"constant", WeightRule::constant}});
-  beam.merge = chosen<MergeRule>(
-      json, "merge",
-      {{"default", MergeRule::standard}, {"paper", MergeRule::paper}, {"ones", MergeRule::ones}});
-  beam.stress_free = chosen<StressFree>(json, "stress_free",
-                                        {{"", StressFree::automatic},
-                                         {"as-drawn", StressFree::as_drawn},
-                                         {"straight", StressFree::straight},
-                                         {"as-drawn-without-torsion", StressFree::as_drawn_without_torsion}});
-  beam.curvature = chosen<CurvatureMeasure>(
-      json, "curvature", {{"material", CurvatureMeasure::material}, {"spatial", CurvatureMeasure::spatial}});
-  beam.metric = chosen<Metric>(json, "metric", {{"reference", Metric::arc_length}, {"none", Metric::label}});
-  beam.form =
-      chosen<Form>(json, "form", {{"variational", Form::variational}, {"virtual-work", Form::virtual_work}});
+  constexpr double default_smooth_angle = 5 * std::numbers::pi / 180;
+  if (beam.corners == Corners::smooth && !has(json, "smooth_up_to")) beam.smooth_angle = default_smooth_angle;
   beam.axial_strain = read_axial_strain(json, path, beam, findings);
-  beam.torsion = has(json, "torsion") ? flag(json, "torsion")
-                                      : has(json, "orientation") || beam.section.second_moments.has_value();
-  beam.orientation = read_orientation(part(json, "orientation"));
+  if (!has(json, "torsion"))
+    beam.torsion = has(json, "orientation") || beam.section.second_moments.has_value();
   const bool may_take_it =
       (beam.stress_free == StressFree::automatic || beam.stress_free == StressFree::as_drawn) &&
       beam.curvature == CurvatureMeasure::material && beam.metric == Metric::arc_length &&
@@ -314,13 +311,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
       beam.weights == WeightRule::material;
   beam.torsion_by_drawing = !has(json, "torsion") && !beam.torsion && !beam.rigid && may_take_it;
   check_torsion(json, path, beam, findings);
-  beam.unstressed_length = optional_number(json, "unstressed_length");
-  beam.tension = number(json, "tension", 0);
-  if (has(json, "temperature"))
-    beam.temperature = json["temperature"].is_array() ? time_table(json, "temperature")
-                                                      : TimeTable{{0, number(json, "temperature")}};
   check_free_length(beam, findings);
-  beam.velocity = read_velocity(part(part(json, "initial"), "velocity"));
   check_guide(json, beam, findings);
   return beam;
 }

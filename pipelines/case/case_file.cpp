@@ -8,6 +8,7 @@
 #include "pipelines/case/case_beam.h"
 #include "pipelines/case/case_check.h"
 #include "pipelines/case/case_connector.h"
+#include "pipelines/case/case_output.h"
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_references.h"
 #include "pipelines/case/host_keys.h"
@@ -98,42 +99,6 @@ CaseBody read_body(const Json& json, const std::string& path, bool has_air, Find
     findings.error(child(path, "drag_area"),
                    "needs the \"air\" that drags; at sea level it has a \"density\" of 1.225");
   return read_item(body_fields(), json, path, findings);
-}
-
-CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings& findings) {
-  CaseOutput output;
-  constexpr int default_frames = 100;
-  if (analysis.type == CaseAnalysis::Type::dynamic)
-    output.every =
-        number(json, "every", std::max(analysis.end_time / default_frames, analysis.step.value_or(0)));
-  if (has(json, "cad")) {
-    const Json& cad = json["cad"];
-    output.cad_formats = {"step"};
-    output.cad_times = {analysis.end_time};
-    output.cad_unit = text(cad, "unit", output.cad_unit);
-    output.cad_schema =
-        chosen<StepSchema>(cad, "schema", {{"ap214", StepSchema::ap214}, {"ap242", StepSchema::ap242}});
-    output.cad_parameter = chosen<CurveParameter>(
-        cad, "parameter", {{"free", CurveParameter::free}, {"material", CurveParameter::material}});
-    if (has(cad, "formats")) {
-      output.cad_formats.clear();
-      for_each_item(cad, "formats", "", [&](const Json& format, const std::string&) {
-        output.cad_formats.push_back(format.get<std::string>());
-      });
-    }
-    if (has(cad, "times") && cad["times"].is_string()) {
-      output.cad_at_all_times = true;
-      output.cad_times.clear();
-    } else if (has(cad, "times")) {
-      output.cad_times = numbers(cad, "times");
-    }
-  }
-  for_each_item(json, "probes", "output", [&](const Json& probe, const std::string& path) {
-    output.probes.push_back(read_item(probe_fields(), probe, path, findings));
-  });
-  output.paraview = flag(json, "paraview");
-  output.report = !has(json, "report") || flag(json, "report");
-  return output;
 }
 
 CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings& findings) {

@@ -1,0 +1,9 @@
+#pragma once
+#include "pipelines/case/case_values.h"
+
+namespace nurbeam {
+
+/// Reads "output", which has been checked against its shape, of a case with that analysis.
+CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings& findings);
+
+}  // namespace nurbeam

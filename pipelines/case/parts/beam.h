@@ -1,0 +1,192 @@
+#pragma once
+#include <numbers>
+
+#include "fem/structure/beam.h"
+#include "pipelines/case/parts/axis.h"
+#include "pipelines/case/parts/elements.h"
+#include "pipelines/case/parts/initial.h"
+#include "pipelines/case/parts/material.h"
+#include "pipelines/case/parts/section.h"
+
+namespace nurbeam {
+
+enum class ElementKind { ale_rancf, ale_ancf };
+/// What a corner of the axis above `smooth_angle` is; error and smooth: an error; rigid: it keeps its angle.
+enum class Corners { error, smooth, rigid, hinge };
+enum class StressFree { automatic, as_drawn, straight, as_drawn_without_torsion };
+
+struct CaseBeam {
+  std::string name;
+  std::string path;  ///< JSON path of this object, for messages
+  CaseAxis axis;
+  double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  bool rigid = false;                     ///< a guide: no section, material or elements
+  bool ring = false;                      ///< the axis is closed, and so is the beam
+  Corners corners = Corners::error;
+  double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]; 0: none
+  CaseSection section;
+  CaseMaterial material;
+  CaseElements elements;
+  ElementKind element = ElementKind::ale_rancf;
+  WeightRule weights = WeightRule::material;
+  MergeRule merge = MergeRule::standard;
+  bool torsion = false;
+  bool torsion_by_drawing = false;  ///< nothing asks for torsion or against it: the model decides
+  Orientation orientation = {};     ///< with torsion
+  StressFree stress_free = StressFree::automatic;
+  CurvatureMeasure curvature = CurvatureMeasure::material;
+  AxialStrain axial_strain = AxialStrain::ends_and_mean;
+  Metric metric = Metric::arc_length;
+  Form form = Form::variational;
+  std::optional<double> unstressed_length = {};  ///< [m]
+  double tension = 0;                            ///< as drawn [N]
+  TimeTable temperature = {};                    ///< above that of the unstressed length [K]; empty: none
+  std::optional<CaseVelocity> velocity = {};
+};
+
+inline Fields<Orientation> orientation_fields() {
+  using namespace shapes;
+  using O = Orientation;
+  return {
+      {
+          field_by<O>("up", vector(Dimension::number), "the section's y axis points up this way everywhere",
+                      [](const Json& json, const std::string&, O& to, Findings&) {
+                        to.rule = O::Rule::up;
+                        take(json, to.direction);
+                      }),
+          field_by<O>(
+              "start", vector(Dimension::number),
+              "it does at the start, and from there sections do not twist; z, or x where the beam starts "
+              "along z, when nothing is said",
+              [](const Json& json, const std::string&, O& to, Findings&) {
+                take(json, to.direction);
+              }),
+          field_by<O>("frenet", boolean(), "it points to the centre of curvature everywhere",
+                      [](const Json& json, const std::string&, O& to, Findings&) {
+                        bool frenet = false;
+                        take(json, frenet);
+                        if (frenet) to.rule = O::Rule::frenet;
+                      }),
+          field_by<O>("twist", table_over_length(Dimension::angle, {.lower = -1e6, .upper = 1e6}),
+                      "turned about the axis besides: [s, angle], smooth between rows, constant outside",
+                      [](const Json& json, const std::string&, O& to, Findings&) {
+                        TimeTable rows;
+                        take(json, rows);
+                        for (const auto& [s, degrees] : rows)
+                          to.twist.emplace_back(s, degrees * std::numbers::pi / 180);
+                      }),
+      },
+      {{{"up", "start", "frenet"}, false}}};
+}
+
+inline Fields<CaseBeam> beam_fields() {
+  using namespace shapes;
+  using B = CaseBeam;
+  const auto elsewhere = [](const Json&, const std::string&, B&, Findings&) {};  // read_beam takes it
+  const Shape initial = object({{"velocity", velocity_fields().shape(),
+                                 "the sum of its parts, as far as supports and joints let it", required}});
+  const Range kelvin{.lower = -1e4, .upper = 1e4, .reason = "a difference in kelvin"};
+  return {
+      {
+          field(&B::name, "name", name(), "name of the beam").needed(),
+          field_by<B>("axis", axis_shape(), "the beam's axis as drawn", elsewhere).needed(),
+          field(
+              &B::rigid, "rigid", boolean(),
+              "a guide: the axis stays as drawn, without elements, mass or strain, and takes neither section "
+              "nor material")
+              .otherwise("false"),
+          field_by<B>("section", section_shape(), "cross-section; needed unless the beam is `rigid`",
+                      elsewhere),
+          field_by<B>("material", either(choice(standard_material_names()), material_fields().shape()),
+                      "a standard material by its name, or its numbers; needed unless the beam is `rigid`",
+                      elsewhere),
+          object_field(&B::elements, "elements", elements_fields(), "how the axis is divided"),
+          choice_field(&B::element, "element",
+                       {{"ale-rancf", ElementKind::ale_rancf}, {"ale-ancf", ElementKind::ale_ancf}},
+                       "rational elements, or all weights 1")
+              .otherwise("ale-rancf"),
+          choice_field(&B::weights, "weights",
+                       {{"material", WeightRule::material}, {"constant", WeightRule::constant}},
+                       "whether weights follow the material or stay with the element, as the paper's")
+              .otherwise("material"),
+          choice_field(
+              &B::merge, "merge",
+              {{"default", MergeRule::standard}, {"paper", MergeRule::paper}, {"ones", MergeRule::ones}},
+              "for comparison, with constant weights: the paper's weights of merged elements (Eqs. "
+              "31-38), or ones; the nodes keep their velocities then"),
+          choice_field(&B::metric, "metric", {{"reference", Metric::arc_length}, {"none", Metric::label}},
+                       "metric of the material coordinate; none: the subdivision paper's elements, for "
+                       "comparison, with spatial curvature and no sliding bodies")
+              .otherwise("reference"),
+          field(
+              &B::torsion, "torsion", boolean(),
+              "the beam bends about its section's own axes and twists, in space; when omitted true with "
+              "`orientation` or `second_moments`, and, where `stress_free` does not say \"straight\", where the "
+              "axis is curved in space, where a drawn profile in space does not bend alike in all directions and "
+              "where a support, joint, load or body needs its sections"),
+          object_field(&B::orientation, "orientation", orientation_fields(),
+                       "how the sections of a beam with torsion are drawn"),
+          choice_field(&B::stress_free, "stress_free",
+                       {{"as-drawn", StressFree::as_drawn},
+                        {"straight", StressFree::straight},
+                        {"as-drawn-without-torsion", StressFree::as_drawn_without_torsion}},
+                       "the unstressed shape; when omitted as-drawn in planar models and with torsion, else "
+                       "straight"),
+          choice_field(&B::curvature, "curvature",
+                       {{"material", CurvatureMeasure::material}, {"spatial", CurvatureMeasure::spatial}},
+                       "curvature measure; spatial: the papers'")
+              .otherwise("material"),
+          choice_field(
+              &B::axial_strain, "axial_strain",
+              {{"ends-and-mean", AxialStrain::ends_and_mean}, {"pointwise", AxialStrain::pointwise}},
+              "the axial strain that carries: the quadratic with its values at the element's ends and "
+              "its mean, or that at every point, as in the papers, which locks in slender beams; when "
+              "omitted ends-and-mean, but pointwise with constant weights, without metric and with form "
+              "virtual-work"),
+          field(&B::tension, "tension", quantity(Dimension::force, plausible(-1e12, 1e12)),
+                "axial force that the beam has as drawn; negative, of a beam that bends: a thrust")
+              .otherwise("0"),
+          field(
+              &B::unstressed_length, "unstressed_length", quantity(Dimension::length, positive()),
+              "length of the beam when it is free, if it is not drawn so: the drawing is then its place and, "
+              "scaled, its unstressed shape; the drawn length when omitted"),
+          field(&B::temperature, "temperature", constant_or_table(Dimension::temperature, kelvin),
+                "how much warmer it is than when it has its unstressed length, or that over time; needs "
+                "material.thermal_expansion"),
+          field_by<B>("initial", initial, "how it moves at time 0; at rest when omitted",
+                      [](const Json& json, const std::string& path, B& beam, Findings& findings) {
+                        if (const Json* velocity = value_under(json, "velocity"))
+                          velocity_fields().read(*velocity, path, beam.velocity.emplace(), findings);
+                      }),
+          choice_field(
+              &B::form, "form", {{"variational", Form::variational}, {"virtual-work", Form::virtual_work}},
+              "form of the forces on moving elements; virtual-work: the paper's, for comparison, which "
+              "drifts")
+              .otherwise("variational"),
+          field(&B::ring, "closed", boolean(),
+                "true: a ring, whose end is its start; else a closed axis is open at its seam"),
+          choice_field(&B::corners, "corners",
+                       {{"error", Corners::error},
+                        {"smooth", Corners::smooth},
+                        {"rigid", Corners::rigid},
+                        {"hinge", Corners::hinge}},
+                       "what a corner of the axis is; smooth: rounded, if small; rigid: kept, with its angle")
+              .otherwise("error"),
+          field_by<B>(
+              "smooth_up_to", quantity(Dimension::angle, {.lower = 0, .upper = 45, .open = true}),
+              "greatest corner that is rounded, whatever greater ones are; when omitted 5 with smooth, "
+              "else none",
+              [](const Json& json, const std::string&, B& beam, Findings&) {
+                take(json, beam.smooth_angle);
+                beam.smooth_angle *= std::numbers::pi / 180;
+              })
+              .beside("corners"),
+          field(&B::approximation_tolerance, "approximation_tolerance",
+                quantity(Dimension::length, positive()),
+                "greatest deviation of the cubics from an axis of degree above 3")
+              .otherwise("1e-6 m"),
+      },
+      {{{"tension", "unstressed_length"}, false}}};
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cad_import/report/format.h"
+#include "nurbs/smooth/smooth_nurbs.h"
+#include "pipelines/case/parts/probe.h"
+
+namespace nurbeam {
+
+struct CaseOutput {
+  std::optional<double> every;           ///< [s]; always there in a dynamic analysis
+  std::vector<std::string> cad_formats;  ///< "step", "iges", "dxf", "step-solid", ...
+  std::vector<double> cad_times;         ///< [s]; the end time unless the file says otherwise
+  bool cad_at_all_times = false;         ///< every stored frame, numbered
+  std::string cad_unit = "mm";
+  StepSchema cad_schema = StepSchema::ap214;
+  CurveParameter cad_parameter = CurveParameter::free;
+  std::vector<CaseProbe> probes;
+  bool paraview = false;  ///< a series of files for ParaView
+  bool report = true;     ///< report.html
+};
+
+/// The shape of "output"; case_output.h reads it.
+Shape output_shape();
+
+}  // namespace nurbeam
