@@ -139,41 +139,26 @@ std::vector<int> name_each_beam(std::vector<Item>& items, const BeamNames& names
 void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findings) {
   resolved.load_numbers = name_each_beam(resolved.loads, names, resolved.beams, findings);
   name_each_beam(resolved.supports, names, resolved.beams, findings);
-  const auto known = [&](const std::string& name, const std::string& path) {
-    return check_name(name, path, names, resolved.beams, findings);
+  // Of an item that is about one beam: what its `key` says of it, and which there are to choose of.
+  const auto needs_one = [&](const std::string& name, const std::string& path, const char* key = ".beam",
+                             const char* says = "is ", const char* choose = "choose one: ") {
+    if (check_name(name, path, names, resolved.beams, findings) && names.at(name).size() > 1)
+      findings.error(path + key, says + in_quotes(name) + ", which is several beams; " + choose +
+                                     quoted_list(names.at(name)));
   };
-  for (const CaseSlidingJoint& joint : resolved.sliding_joints)
-    if (known(joint.beam, joint.path) && names.at(joint.beam).size() > 1)
-      findings.error(joint.path + ".beam",
-                     "is " + in_quotes(joint.beam) +
-                         ", which is several beams; choose one: " + quoted_list(names.at(joint.beam)));
-  for (const CaseEyelet& eyelet : resolved.eyelets)
-    if (known(eyelet.beam, eyelet.path) && names.at(eyelet.beam).size() > 1)
-      findings.error(eyelet.path + ".beam",
-                     "is " + in_quotes(eyelet.beam) +
-                         ", which is several beams; choose one: " + quoted_list(names.at(eyelet.beam)));
-  for (const CaseStop& stop : resolved.stops)
-    if (known(stop.beam, stop.path) && names.at(stop.beam).size() > 1)
-      findings.error(stop.path + ".beam",
-                     "is " + in_quotes(stop.beam) +
-                         ", which is several beams; choose one: " + quoted_list(names.at(stop.beam)));
+  const auto each_needs_one = [&](const auto& items) {
+    for (const auto& item : items) needs_one(item.beam, item.path);
+  };
+  each_needs_one(resolved.sliding_joints);
+  each_needs_one(resolved.eyelets);
+  each_needs_one(resolved.stops);
   for (const CaseBeamJoint& joint : resolved.joints)
     for (const std::string& name : joint.beams)
-      if (known(name, joint.path) && names.at(name).size() > 1)
-        findings.error(joint.path + ".beams",
-                       "names " + in_quotes(name) +
-                           ", which is several beams; choose of: " + quoted_list(names.at(name)));
+      needs_one(name, joint.path, ".beams", "names ", "choose of: ");
   for (const CaseConnector& connector : resolved.connectors)
     for (const CaseConnectorEnd& end : connector.ends)
-      if (!end.beam.empty() && known(end.beam, end.path) && names.at(end.beam).size() > 1)
-        findings.error(end.path + ".beam",
-                       "is " + in_quotes(end.beam) +
-                           ", which is several beams; choose one: " + quoted_list(names.at(end.beam)));
-  for (const CaseProbe& probe : resolved.probes)
-    if (known(probe.beam, probe.path) && names.at(probe.beam).size() > 1)
-      findings.error(probe.path + ".beam",
-                     "is " + in_quotes(probe.beam) +
-                         ", which is several beams; choose one: " + quoted_list(names.at(probe.beam)));
+      if (!end.beam.empty()) needs_one(end.beam, end.path);
+  each_needs_one(resolved.probes);
 }
 
 }  // namespace
