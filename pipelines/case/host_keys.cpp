@@ -28,10 +28,11 @@ Shape law_shape() {
 const Shape& host_keys() {
   static const Shape shape = [] {
     Shape keys = case_keys();
-    for (auto& [name, shape, description, required, needs] : keys.keys) {
-      if (name != "supports" && name != "sliding_joints") continue;
-      shape.items[0] = name == "supports" ? support_fields().shape(true) : sliding_joint_fields().shape(true);
-      shape.items[0].alternatives.push_back({{"motion", "motion_law"}, false});
+    for (Key& key : keys.keys) {
+      if (key.name != "supports" && key.name != "sliding_joints") continue;
+      Shape& item = key.shape.items[0];
+      item = key.name == "supports" ? support_fields().shape(true) : sliding_joint_fields().shape(true);
+      item.alternatives.push_back({{"motion", "motion_law"}, false});
     }
     keys.keys.push_back({"laws", Shape{.kind = Shape::Kind::array, .items = {law_shape()}},
                          "forces by functions of the program"});
