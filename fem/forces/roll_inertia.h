@@ -27,59 +27,27 @@ class RollInertia {
   int rider() const { return rider_; }
   const std::vector<int>& dofs() const { return dofs_; }
 
-  void add_force(const MeshedBeams<3>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const {
-    const Motion<double> x = motion(at, state);
-    const auto& here = section_.here(at, x.q);
-    add(here.template force<double>(x.q, moment<double>(here, x)), dynamics);
-  }
+  void add_force(const MeshedBeams<3>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <class Sink>
   void add_tangent(const MeshedBeams<3>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
-    using T = Dual<1>;
-    const Motion<double> x = motion(at, state);
-    const auto& here = section_.here(at, x.q);
-    Eigen::Matrix<double, size, size> K;
-    for (int j = 0; j < size; ++j) {
-      const Vector<double> along = Vector<double>::Unit(j);
-      const Motion<T> moved{twist::moving<double, size>(x.q, w.stiffness * along),
-                            twist::moving<double, size>(x.v, w.damping * along),
-                            twist::moving<double, size>(x.a, w.mass * along)};
-      const Vector<T> f = here.template force<T>(moved.q, moment<T>(here, moved));
-      for (int i = 0; i < size; ++i) K(i, j) = f[i].d[0];
-    }
-    sink.own(K);
+    sink.own(tangent(at, state, w));
   }
   void add_energy(const MeshedBeams<3>& at, const State& state, SystemEnergy& sum) const {
     const double w = spin(at, state);
     sum.kinetic += inertia_ * w * w / 2;
   }
   /// w [rad/s].
-  double spin(const MeshedBeams<3>& at, const State& state) const {
-    const Motion<double> x = motion(at, state);
-    const auto now = section_.here(at, x.q).template triad<Dual<1>>(twist::moving<double, size>(x.q, x.v));
-    double w = 0;
-    for (int d = 0; d < 3; ++d) w += now.d1[d].d[0] * now.d2[d].value;
-    return w;
-  }
+  double spin(const MeshedBeams<3>& at, const State& state) const;
   /// Adds the generalised momentum of a roll with that spin.
   void add_momentum(const MeshedBeams<3>& at, const State& state, double spin,
-                    Eigen::Ref<Eigen::VectorXd> p) const {
-    const Vector<double> x = section_.coordinates(at, state.q);
-    const auto& here = section_.here(at, x);
-    const Eigen::Vector3d t = here.template triad<double>(x).t;
-    add(here.template force<double>(x, Vector3<double>(inertia_ * spin * t)), p);
-  }
+                    Eigen::Ref<Eigen::VectorXd> p) const;
   /// Where the body is on a point.
-  void add_actions(const MeshedBeams<3>& at, const State& state, std::vector<PointAction>& actions) const {
-    if constexpr (std::is_same_v<Section, FollowedPoint>) {
-      const Motion<double> x = motion(at, state);
-      actions.push_back({.element = section_.element(),
-                         .s = x.q[size - 1],
-                         .couple = -moment<double>(section_.here(at, x.q), x)});
-    }
-  }
+  void add_actions(const MeshedBeams<3>& at, const State& state, std::vector<PointAction>& actions) const;
 
  private:
   static constexpr int size = Section::size;
+  using Matrix = Eigen::Matrix<double, size, size>;
+  Matrix tangent(const MeshedBeams<3>& at, const State& state, const TangentWeights& w) const;
   template <class T>
   using Vector = Eigen::Matrix<T, size, 1>;
   template <class T>
@@ -115,6 +83,9 @@ class RollInertia {
   Section section_;
   std::vector<int> dofs_;
 };
+
+extern template class RollInertia<FollowedNode>;
+extern template class RollInertia<FollowedPoint>;
 
 /// That of a body that has left its beam: it rolls on as it did.
 class FreeRoll {
