@@ -1,10 +1,10 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "fem/motion/remesh/meshed_state.h"
+#include "fem/system/names.h"
 #include "fem/system/observables.h"
 #include "python/bindings.h"
 #include "python/laws.h"
@@ -59,53 +59,6 @@ class Equations {
   State state_;
 };
 
-void name_vector(std::vector<std::string>& names, int first, int dimension, const std::string& name) {
-  if (first < 0) return;
-  for (int d = 0; d < dimension; ++d) names[first + d] = name + "." + "xyz"[d];
-}
-void name_number(std::vector<std::string>& names, int at, const std::string& name) {
-  if (at >= 0) names[at] = name;
-}
-
-// "trolley.s", or "trolley.cable.s" of a body that slides on several beams.
-std::string place_name(const BeamModel& model, const Rider& joint) {
-  const std::string& body = model.bodies[joint.body].name;
-  const bool on_others = std::ranges::count(model.riders, joint.body, &Rider::body) > 1;
-  return on_others ? body + "." + model.beam_of(joint).name + ".s" : body + ".s";
-}
-
-// "cable[3].x", "cable[3].slope.x", "trolley.s", ...
-std::vector<std::string> coordinate_names(const Equations& e) {
-  const Mesh& mesh = e.system().mesh();
-  const BeamModel& model = e.system().model();
-  const int D = mesh.dimension;
-  std::vector<std::string> names(mesh.coordinate_count);
-  for (int b = 0; b < static_cast<int>(mesh.nodes.size()); ++b)
-    for (int i = 0; i < static_cast<int>(mesh.nodes[b].size()); ++i) {
-      const MeshNode& node = mesh.nodes[b][i];
-      const std::string name = model.beams[b].name + "[" + std::to_string(i) + "]";
-      name_vector(names, node.r, D, name);
-      name_vector(names, node.slope_right, D, name + ".slope_right");
-      name_vector(names, node.slope_left, D,
-                  name + (node.slope_left == node.slope_right ? ".slope" : ".slope_left"));
-      name_number(names, node.angle_right, name + ".angle_right");
-      name_number(names, node.angle_left,
-                  name + (node.angle_left == node.angle_right ? ".angle" : ".angle_left"));
-    }
-  for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
-    const int b = mesh.spans[i].beam;
-    name_number(names, mesh.spans[i].bubble,
-                model.beams[b].name + "[" + std::to_string(i - mesh.first_span[b]) + "].bubble");
-  }
-  for (int i = 0; i < static_cast<int>(mesh.bodies.size()); ++i)
-    name_vector(names, mesh.bodies[i], D, model.bodies[i].name);
-  for (int j = 0; j < static_cast<int>(mesh.riders.size()); ++j)
-    name_number(names, mesh.riders[j].place, place_name(model, model.riders[j]));
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i].empty()) names[i] = "coordinate[" + std::to_string(i) + "]";
-  return names;
-}
-
 using Given = const std::optional<Eigen::VectorXd>&;
 
 std::pair<Eigen::VectorXd, Eigen::VectorXd> residual(const Equations& e, const std::optional<double>& t,
@@ -149,7 +102,10 @@ void bind_systems(py::module_& module) {
           "a", [](const Equations& e) { return e.state().a; })
       .def_property_readonly(
           "multipliers", [](const Equations& e) { return e.state().lambda; })
-      .def("coordinates", &coordinate_names)
+      .def(
+          "coordinates", [](const Equations& e) { return coordinate_names(e.system()); })
+      .def(
+          "rows", [](const Equations& e) { return row_names(e.system()); })
       .def(
           "energy", [](const Equations& e) { return energy(e.system(), e.state()).mechanical(); })
       .def("residual", &residual, py::arg("t"), py::arg("q"), py::arg("v"), py::arg("a"),

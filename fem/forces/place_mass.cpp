@@ -1,13 +1,13 @@
 #include "fem/forces/place_mass.h"
 
-#include "fem/mesh/connector_axis.h"
+#include "fem/mesh/grip_position.h"
 
 namespace nurbeam {
 
 template <int D>
 BoundPlaceMass<D>::BoundPlaceMass(const PlaceMass& mass, const MeshedBeams<D>& at, const Eigen::VectorXd&)
     : mass_(mass) {
-  const int r = kept_position(at.structure, at.mesh, mass.beam, mass.s, "a mass");
+  const int r = *grip_position(at.structure, at.mesh, Grip::on_beam(mass.beam, mass.s), "a mass");
   for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
 }
 

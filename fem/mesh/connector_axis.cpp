@@ -1,27 +1,14 @@
 #include "fem/mesh/connector_axis.h"
 
-#include <stdexcept>
-
-#include "nurbs/number_text.h"
+#include "fem/mesh/grip_position.h"
 
 namespace nurbeam {
-
-int kept_position(const Structure& structure, const Mesh& mesh, int beam, double s, const std::string& what) {
-  const int home = structure.beams[beam].home_at(s);
-  for (const MeshNode& node : mesh.nodes[beam])
-    if (home >= 0 && node.home == home) return node.r;
-  throw std::invalid_argument(what + " at s = " + text_of(s) + " m of beam \"" + structure.beams[beam].name +
-                              "\" needs a node that stays there");
-}
 
 template <int D>
 ConnectorAxis<D>::ConnectorAxis(const Connector& connector, const Structure& structure, const Mesh& mesh) {
   for (const int i : {0, 1}) {
     const Grip& end = connector.ends[i];
-    const int r = end.body >= 0   ? mesh.bodies[end.body]
-                  : end.beam >= 0 ? kept_position(structure, mesh, end.beam, end.s,
-                                                  "connector \"" + connector.name + "\"")
-                                  : -1;
+    const int r = grip_position(structure, mesh, end, "connector \"" + connector.name + "\"").value_or(-1);
     for (int d = 0; d < D; ++d) dofs_.push_back(r < 0 ? -1 : r + d);
     bodies_[i] = end.body;
     points_[i] = end.point.template head<D>();

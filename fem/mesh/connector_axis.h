@@ -7,10 +7,6 @@
 
 namespace nurbeam {
 
-/// Where a place of a beam that keeps its node has its position among the coordinates. Throws
-/// std::invalid_argument where the mesh has no such node; `what` stands there.
-int kept_position(const Structure& structure, const Mesh& mesh, int beam, double s, const std::string& what);
-
 /// The line between the ends of a connector in one mesh.
 template <int D>
 class ConnectorAxis {

@@ -48,6 +48,8 @@ class Assembly final : public SecondOrderSystem {
   struct Rows {
     int first = 0, count = 0;
   };
+  /// Those of constraint i of the model.
+  const Rows& rows_of(int i) const { return constraint_rows_[i]; }
   /// Calls visit(constraint, rows) for every constraint of the mesh in turn.
   template <class Visit>
   void for_each_constraint(Visit&& visit) const {

@@ -1,6 +1,6 @@
 #include "fem/system/observables.h"
 
-#include "fem/mesh/connector_axis.h"
+#include "fem/mesh/grip_position.h"
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
 
@@ -178,21 +178,16 @@ std::optional<int> row_of_rod(const BeamSystem& system, int connector) {
       system, [&](const auto& a) { return first_row(a, a.parts().rods[connector]); });
 }
 
+Eigen::Vector3d grip_place(const BeamSystem& system, const State& state, const Grip& grip,
+                           const std::string& what) {
+  const std::optional<int> r = grip_position(system.model(), system.mesh(), grip, what);
+  return r ? vector_at(system, state.q, *r) : grip.point;
+}
+
 std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector) {
   const Connector& described = system.model().connectors[connector];
-  const Mesh& mesh = system.mesh();
-  std::array<Eigen::Vector3d, 2> places;
-  for (const int i : {0, 1}) {
-    const Grip& end = described.ends[i];
-    if (end.is_point())
-      places[i] = end.point;
-    else if (end.body >= 0)
-      places[i] = vector_at(system, state.q, mesh.bodies[end.body]);
-    else
-      places[i] =
-          vector_at(system, state.q, kept_position(system.model(), mesh, end.beam, end.s, described.name));
-  }
-  return places;
+  return {grip_place(system, state, described.ends[0], described.name),
+          grip_place(system, state, described.ends[1], described.name)};
 }
 
 double contact_force(const BeamSystem& system, const State& state, int stop) {

@@ -58,6 +58,9 @@ std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const St
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector);
 /// The row of the multiplier of a rod; empty where a connector is none.
 std::optional<int> row_of_rod(const BeamSystem& system, int connector);
+/// Where a grip is [m]; std::invalid_argument, with `what` takes hold, where the mesh has no node there.
+Eigen::Vector3d grip_place(const BeamSystem& system, const State& state, const Grip& grip,
+                           const std::string& what);
 /// Where the ends of a connector are [m].
 std::array<Eigen::Vector3d, 2> connector_ends(const BeamSystem& system, const State& state, int connector);
 /// s of a rider's body [m], on a ring with the turns since the start; empty when it flies free.

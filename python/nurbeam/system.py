@@ -36,6 +36,12 @@ class System:
         its position in the body's coordinates."""
         return self._core.coordinates()
 
+    @property
+    def rows(self) -> list[str]:
+        """The name of each row of the constraints, (m): of the support, the joint, the body, the rod or the stop that
+        asks for it, "reaction.cable.start[2]" where it asks for several."""
+        return self._core.rows()
+
     def index(self, name: str) -> int:
         """The number of a coordinate."""
         names = self.coordinates
@@ -65,7 +71,7 @@ class System:
 
     @property
     def multipliers(self) -> Array:
-        """(m,)"""
+        """(m,), in the order of `rows`"""
         return self._core.multipliers
 
     @property

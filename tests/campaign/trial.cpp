@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "fem/mesh/connector_axis.h"
 #include "fem/motion/events/kinks.h"
 #include "fem/motion/rest/resting_place.h"
 #include "fem/motion/run/simulation.h"
@@ -107,19 +106,13 @@ Vector3d mass_damping_force(const BeamSystem& system, const State& state) {
   return force;
 }
 
-Vector3d place_of_end(const BeamSystem& system, const State& state, const Grip& end) {
-  if (end.is_point()) return end.point;
-  if (end.body >= 0) return vector_at(system, state.q, system.mesh().bodies[end.body]);
-  return vector_at(system, state.q, kept_position(system.model(), system.mesh(), end.beam, end.s, "an end"));
-}
-
 /// What points in space give through connectors.
 Vector3d force_of_points(const BeamSystem& system, const State& state) {
   Vector3d force = Vector3d::Zero();
   for (int i = 0; i < static_cast<int>(system.model().connectors.size()); ++i) {
     const Connector& connector = system.model().connectors[i];
-    const Vector3d d =
-        place_of_end(system, state, connector.ends[1]) - place_of_end(system, state, connector.ends[0]);
+    const Vector3d d = grip_place(system, state, connector.ends[1], "an end") -
+                       grip_place(system, state, connector.ends[0], "an end");
     const Vector3d n = connector.direction ? *connector.direction : Vector3d(d.normalized());
     const double pull = length_and_force(system, state, i).second;
     if (connector.ends[1].is_point()) force += pull * n;

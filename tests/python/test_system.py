@@ -54,6 +54,15 @@ def test_coordinates_have_names(moving):
         moving.residual(q=[1, 2])
 
 
+def test_rows_have_names(moving):
+    names = moving.rows
+    assert len(set(names)) == len(names) == len(moving.multipliers)
+    assert {"reaction.wire.start[1]", "reaction.wire.start[2]", "reaction.wire.end[1]"} <= set(names)
+    # A node is held in x where x is in the gradient of its row.
+    gradient = moving.constraint_gradient()
+    assert gradient[names.index("reaction.wire.start[1]"), moving.index("wire[0].x")] == 1
+
+
 def test_places_of_a_body_on_several_beams_are_told_apart():
     model = nb.Model(gravity=[0, 0, 0])
     bead = model.add_body("bead", mass=1)
