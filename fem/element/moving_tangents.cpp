@@ -1,5 +1,7 @@
-// The tangent of the force of an element whose ends move, by what acts on r, r_s and r_ss. Long because that
-// is one sum over the points.
+// The tangent of the force of an element whose ends move: over the points, the sum of the terms of inertia,
+// elasticity, load and damping, each by what acts on r, r_s and r_ss.
+#include <tuple>
+
 #include "fem/element/beam_element.h"
 #include "fem/element/moving_mass.h"
 #include "fem/element/moving_point.h"
@@ -11,9 +13,19 @@ namespace {
 
 using Row = MovingRows::Row;
 
-// Summed over the points. With all rates weighted (TangentWeights), one increment of the
-// coordinates is one of positions, velocities and accelerations: each field varies by one number a node, as
-// it is linear in the nodes, and by one vector a place.
+// K = k df/dq + d df/dv + m df/da for the weights k, d, m of TangentWeights. With all rates weighted, one
+// increment of the coordinates is one of positions, velocities and accelerations: each field varies by one
+// number a node, as it is linear in the nodes, and by one vector a place.
+//
+//   e, e_rate, e_second  nodes (D x 4) with their rates        w, w_rate      rates of the places s_a, s_b
+//   r, rs, rss           the field and its derivatives along s v              of the material, [m/s]
+//   A, s                 weight and place of the point         x_rate         dx/dt at the point, which moves
+//   x_e, x_i             what x varies by with the nodes, (4), and with place i, by the weighted increment;
+//   s_i, A_i, r.first    not weighted: derivatives by place i
+//
+// The force on node n is on_r R_n + on_rs R_n' + on_rss R_n'' with the rows R of the shape functions; that on
+// place i is on_r . r_i + on_rs . rs_i + on_rss . rss_i - pull s_i - lagrangian A_i (a place that moves
+// leaves the material behind, and a weight that grows takes in more of it).
 template <int D>
 class TangentSum {
  public:
@@ -34,110 +46,15 @@ class TangentSum {
   }
 
   void add(const MovingRows& rows, const Jet& s, const Jet& weight) {
-    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
-    const double k = t_.stiffness, d = t_.damping, mass = t_.mass;
-    const double m = properties_.mass_per_length, A = weight.value();
-    const std::array<double, 2> s_i{s.d(0), s.d(1)}, A_i{weight.d(0), weight.d(1)};
-    const double s_rate = s_i[0] * w[0] + s_i[1] * w[1], s_second = s_i[0] * w_rate[0] + s_i[1] * w_rate[1],
-                 A_rate = A_i[0] * w[0] + A_i[1] * w[1];
-    const Field r(e, rows.r), rs(e, rows.rs), rss(e, rows.rss);
-
-    // Rates of the rows and what they vary by with the places.
-    const Row r1 = along(rows.r.first, w), rs1 = along(rows.rs.first, w);
-    const std::array<Row, 2> r1_i = along(rows.r.second, w), rs1_i = along(rows.rs.second, w);
-    const Row r2 = along(r1_i, w) + along(rows.r.first, w_rate);
-    std::array<Row, 2> r2_i = along(rows.r.second, w_rate);
-    for (const int i : {0, 1})
-      r2_i[i] += rows.r_third[i] * (w[0] * w[0]) + rows.r_third[i + 1] * (2 * w[0] * w[1]) +
-                 rows.r_third[i + 2] * (w[1] * w[1]);
-
-    const Vector rs_rate = e_rate * rows.rs.value + e * rs1;
-    const Vector v = e_rate * rows.r.value + e * r1 - rs.value * s_rate;
-    const Vector acceleration =
-        e_second * rows.r.value + 2 * e_rate * r1 + e * r2 - rs_rate * s_rate - rs.value * s_second;
-    const Vector momentum_rate = m * (A * acceleration + A_rate * v), momentum = (m * A) * v;
-    const ElasticResponse<D> elastic = elastic_response<D>(properties_, rs.value, rss.value, rows.kappa0);
-    const Vector g_s = elastic.gradient.template head<D>(), g_t = elastic.gradient.template tail<D>();
-    const Vector on_r = momentum_rate - A * load_, on_rs = s_rate * momentum + A * g_s, on_rss = A * g_t;
-
-    // What they vary by: of the nodes, then of the places.
-    const Row rs_rate_e = d * rows.rs.value + k * rs1;
-    const Row v_e = d * rows.r.value + k * (r1 - s_rate * rows.rs.value);
-    const Row acceleration_e =
-        mass * rows.r.value + 2 * d * r1 + k * (r2 - s_second * rows.rs.value) - s_rate * rs_rate_e;
-    const Row momentum_rate_e = m * (A * acceleration_e + A_rate * v_e), momentum_e = (m * A) * v_e;
-    Vectors rs_rate_i, v_i, momentum_rate_i, momentum_i, on_r_i, on_rs_i, on_rss_i, elastic_s, elastic_t;
-    for (const int i : {0, 1}) {
-      const Vector r1_along = e_rate * rows.r.first[i] + e * r1_i[i];
-      rs_rate_i[i] = k * (e_rate * rows.rs.first[i] + e * rs1_i[i]) + d * rs.first[i];
-      v_i[i] = k * (r1_along - rs.first[i] * s_rate) + d * (r.first[i] - rs.value * s_i[i]);
-      const Vector acceleration_i =
-          k * (e_second * rows.r.first[i] + 2 * e_rate * r1_i[i] + e * r2_i[i] - s_second * rs.first[i]) +
-          d * (2 * r1_along - s_i[i] * rs_rate) + mass * (r.first[i] - s_i[i] * rs.value) -
-          s_rate * rs_rate_i[i];
-      momentum_rate_i[i] =
-          m * (A * acceleration_i + k * A_i[i] * acceleration + A_rate * v_i[i] + d * A_i[i] * v);
-      momentum_i[i] = m * (A * v_i[i] + k * A_i[i] * v);
-      Pair z;
-      z << rs.first[i], rss.first[i];
-      const Pair g_i = elastic.hessian * z - elastic.moment_gradient * rows.kappa0_first[i];
-      elastic_s[i] = (k * A) * g_i.template head<D>();
-      elastic_t[i] = (k * A) * g_i.template tail<D>();
-      on_r_i[i] = momentum_rate_i[i] - k * A_i[i] * load_;
-      on_rs_i[i] = s_rate * momentum_i[i] + d * s_i[i] * momentum + k * A_i[i] * g_s + elastic_s[i];
-      on_rss_i[i] = k * A_i[i] * g_t + elastic_t[i];
-    }
-
-    // Forces on the nodes.
-    sums_.isotropic.noalias() += rows.r.value * momentum_rate_e.transpose();
-    sums_.isotropic.noalias() += rows.rs.value * (s_rate * momentum_e).transpose();
-    add_elastic(elastic.hessian, k * A, rows);
-    for (const int i : {0, 1}) {
-      sums_.by_place[i].noalias() += on_r_i[i] * rows.r.value.transpose();
-      sums_.by_place[i].noalias() += on_rs_i[i] * rows.rs.value.transpose();
-      sums_.by_place[i].noalias() += on_rss_i[i] * rows.rss.value.transpose();
-      Nodes shared = on_r * rows.r.first[i].transpose();
-      shared.noalias() += on_rs * rows.rs.first[i].transpose();
-      shared.noalias() += on_rss * rows.rss.first[i].transpose();
-      sums_.by_place[i] += k * shared;
-
-      // Forces on the places.
-      Nodes& of_nodes = sums_.of_place[i];
-      of_nodes += k * shared;
-      of_nodes.noalias() += r.first[i] * momentum_rate_e.transpose();
-      of_nodes.noalias() += rs.first[i] * (s_rate * momentum_e).transpose();
-      of_nodes.noalias() +=
-          (elastic_s[i] - s_i[i] * k * momentum_rate + A_i[i] * k * g_s) * rows.rs.value.transpose();
-      of_nodes.noalias() += (elastic_t[i] + A_i[i] * k * g_t) * rows.rss.value.transpose();
-      of_nodes.noalias() -= (A_i[i] * k) * load_ * rows.r.value.transpose();
-      of_nodes.noalias() -= (s_i[i] * rs.value) * momentum_rate_e.transpose();
-      of_nodes.noalias() -= (s_i[i] * momentum) * rs_rate_e.transpose();
-      of_nodes.noalias() -= (s_i[i] * rs_rate) * momentum_e.transpose();
-      of_nodes.noalias() -= (A_i[i] * m) * v * v_e.transpose();
-    }
-    for (const int j : {0, 1}) {
-      const double pull_j = k * rs.first[j].dot(momentum_rate) + rs.value.dot(momentum_rate_i[j]) +
-                            rs_rate_i[j].dot(momentum) + rs_rate.dot(momentum_i[j]);
-      const double lagrangian_j =
-          m * v.dot(v_i[j]) + k * (load_.dot(r.first[j]) - g_s.dot(rs.first[j]) - g_t.dot(rss.first[j]) +
-                                   elastic.moment * rows.kappa0_first[j]);
-      Pair z;
-      z << rs.first[j], rss.first[j];
-      const double moment_j =
-          k * (elastic.moment_gradient.dot(z) - elastic.moment_slope * rows.kappa0_first[j]);
-      for (const int i : {0, 1})
-        sums_.places(i, j) +=
-            on_r_i[j].dot(r.first[i]) + on_rs_i[j].dot(rs.first[i]) + on_rss_i[j].dot(rss.first[i]) +
-            k * (on_r.dot(r.second[i + j]) + on_rs.dot(rs.second[i + j]) + on_rss.dot(rss.second[i + j])) -
-            pull_j * s_i[i] - lagrangian_j * A_i[i] -
-            (A * moment_j + k * A_i[j] * elastic.moment) * rows.kappa0_first[i] -
-            k * A * elastic.moment * rows.kappa0_second[i + j];
-    }
-    if (k != 0 || d != 0) {
-      add_stretch(rows.rs, rs, A, A_i);
-      if (properties_.is_damped())
-        add_damping(rows, {r, rs, rss, s_i, A_i, A, s_rate, v, rs_rate, v_e, rs_rate_e, v_i, rs_rate_i});
-    }
+    const Point p(rows, s, weight, motion_, t_);
+    Action acts;
+    add_inertia(p, acts);
+    add_elastic(p, acts);
+    add_load(p, acts);
+    add_action(p, acts);
+    if (t_.stiffness == 0 && t_.damping == 0) return;
+    add_stretch(p);
+    if (properties_.is_damped()) add_damping(p);
   }
 
   /// `basis`: that of the points.
@@ -183,18 +100,175 @@ class TangentSum {
     return {by[0] * w[0] + by[1] * w[1], by[1] * w[0] + by[2] * w[1]};
   }
 
-  // What a point of a damped element has been found to be.
+  // Where a point is and how it moves.
   struct Point {
-    const Field &r, &rs, &rss;
-    const std::array<double, 2>&s_i, &A_i;
-    double A, s_rate;
-    const Vector &v, &rs_rate;
-    const Row &v_e, &rs_rate_e;
-    const Vectors &v_i, &rs_rate_i;
+    const MovingRows& rows;
+    Field r, rs, rss;
+    std::array<double, 2> s_i, A_i;
+    double A, s_rate, s_second, A_rate;
+    Row r1, rs1;                     // rates of the rows of r and r_s,
+    std::array<Row, 2> r1_i, rs1_i;  // and their derivatives by the places
+    Vector rs_rate, v;
+    Row rs_rate_e, v_e;
+    Vectors r1_along, rs_rate_i, v_i;
+
+    Point(const MovingRows& rows_, const Jet& s, const Jet& weight,
+          const typename MovingPoint<D>::Motion& motion, const TangentWeights& t)
+        : rows(rows_),
+          r(motion.e, rows.r),
+          rs(motion.e, rows.rs),
+          rss(motion.e, rows.rss),
+          s_i{s.d(0), s.d(1)},
+          A_i{weight.d(0), weight.d(1)},
+          A(weight.value()) {
+      const auto& [e, e_rate, e_second, w, w_rate] = motion;
+      const double k = t.stiffness, d = t.damping;
+      s_rate = s_i[0] * w[0] + s_i[1] * w[1];
+      s_second = s_i[0] * w_rate[0] + s_i[1] * w_rate[1];
+      A_rate = A_i[0] * w[0] + A_i[1] * w[1];
+      r1 = along(rows.r.first, w);
+      rs1 = along(rows.rs.first, w);
+      r1_i = along(rows.r.second, w);
+      rs1_i = along(rows.rs.second, w);
+      rs_rate = e_rate * rows.rs.value + e * rs1;
+      v = e_rate * rows.r.value + e * r1 - rs.value * s_rate;
+      rs_rate_e = d * rows.rs.value + k * rs1;
+      v_e = d * rows.r.value + k * (r1 - s_rate * rows.rs.value);
+      for (const int i : {0, 1}) {
+        r1_along[i] = e_rate * rows.r.first[i] + e * r1_i[i];
+        rs_rate_i[i] = k * (e_rate * rows.rs.first[i] + e * rs1_i[i]) + d * rs.first[i];
+        v_i[i] = k * (r1_along[i] - rs.first[i] * s_rate) + d * (r.first[i] - rs.value * s_i[i]);
+      }
+    }
   };
 
-  void add_elastic(const Eigen::Matrix<double, 2 * D, 2 * D>& hessian, double factor,
-                   const MovingRows& rows) {
+  // What acts at a point on r, r_s and r_ss, what that varies by with place j, what the force on place i
+  // varies by with these fields of the nodes, and what the Lagrangian varies by with place j.
+  struct Action {
+    Vector on_r, on_rs, on_rss;
+    Vectors on_r_i, on_rs_i, on_rss_i;
+    Vectors by_r, by_rs, by_rss;
+    std::array<double, 2> lagrangian;
+  };
+
+  // m (A dv/dt + dA/dt v) on r, and ds/dt m A v on r_s; sets all of the action.
+  void add_inertia(const Point& p, Action& acts) {
+    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
+    const MovingRows& rows = p.rows;
+    const double k = t_.stiffness, d = t_.damping, mass = t_.mass;
+    const double m = properties_.mass_per_length, A = p.A;
+    const Row r2 = along(p.r1_i, w) + along(rows.r.first, w_rate);
+    std::array<Row, 2> r2_i = along(rows.r.second, w_rate);
+    for (const int i : {0, 1})
+      r2_i[i] += rows.r_third[i] * (w[0] * w[0]) + rows.r_third[i + 1] * (2 * w[0] * w[1]) +
+                 rows.r_third[i + 2] * (w[1] * w[1]);
+    const Vector acceleration =
+        e_second * rows.r.value + 2 * e_rate * p.r1 + e * r2 - p.rs_rate * p.s_rate - p.rs.value * p.s_second;
+    const Vector momentum_rate = m * (A * acceleration + p.A_rate * p.v), momentum = (m * A) * p.v;
+    const Row acceleration_e =
+        mass * rows.r.value + 2 * d * p.r1 + k * (r2 - p.s_second * rows.rs.value) - p.s_rate * p.rs_rate_e;
+    const Row momentum_rate_e = m * (A * acceleration_e + p.A_rate * p.v_e), momentum_e = (m * A) * p.v_e;
+    acts.on_r = momentum_rate;
+    acts.on_rs = p.s_rate * momentum;
+    acts.on_rss.setZero();
+    sums_.isotropic.noalias() += rows.r.value * momentum_rate_e.transpose();
+    sums_.isotropic.noalias() += rows.rs.value * (p.s_rate * momentum_e).transpose();
+    for (const int i : {0, 1}) {
+      const Vector acceleration_i = k * (e_second * rows.r.first[i] + 2 * e_rate * p.r1_i[i] + e * r2_i[i] -
+                                         p.s_second * p.rs.first[i]) +
+                                    d * (2 * p.r1_along[i] - p.s_i[i] * p.rs_rate) +
+                                    mass * (p.r.first[i] - p.s_i[i] * p.rs.value) - p.s_rate * p.rs_rate_i[i];
+      const Vector momentum_rate_i =
+          m * (A * acceleration_i + k * p.A_i[i] * acceleration + p.A_rate * p.v_i[i] + d * p.A_i[i] * p.v);
+      const Vector momentum_i = m * (A * p.v_i[i] + k * p.A_i[i] * p.v);
+      acts.on_r_i[i] = momentum_rate_i;
+      acts.on_rs_i[i] = p.s_rate * momentum_i + d * p.s_i[i] * momentum;
+      acts.on_rss_i[i].setZero();
+      acts.by_r[i].setZero();
+      acts.by_rs[i] = -(p.s_i[i] * k) * momentum_rate;
+      acts.by_rss[i].setZero();
+      acts.lagrangian[i] = m * p.v.dot(p.v_i[i]);
+      Nodes& of_nodes = sums_.of_place[i];
+      of_nodes.noalias() += (p.r.first[i] - p.s_i[i] * p.rs.value) * momentum_rate_e.transpose();
+      of_nodes.noalias() += (p.s_rate * p.rs.first[i] - p.s_i[i] * p.rs_rate) * momentum_e.transpose();
+      of_nodes.noalias() -= (p.s_i[i] * momentum) * p.rs_rate_e.transpose();
+      of_nodes.noalias() -= (p.A_i[i] * m) * p.v * p.v_e.transpose();
+      // pull = r_s . d(momentum)/dt + dr_s/dt . momentum.
+      const double pull_i = k * p.rs.first[i].dot(momentum_rate) + p.rs.value.dot(momentum_rate_i) +
+                            p.rs_rate_i[i].dot(momentum) + p.rs_rate.dot(momentum_i);
+      for (const int place : {0, 1}) sums_.places(place, i) -= pull_i * p.s_i[place];
+    }
+  }
+
+  // A dU/dr_s on r_s and A dU/dr_ss on r_ss for the energy U(r_s, r_ss, kappa_0) of the law.
+  void add_elastic(const Point& p, Action& acts) {
+    const MovingRows& rows = p.rows;
+    const double k = t_.stiffness, A = p.A;
+    const ElasticResponse<D> elastic = elastic_response<D>(properties_, p.rs.value, p.rss.value, rows.kappa0);
+    const Vector g_s = elastic.gradient.template head<D>(), g_t = elastic.gradient.template tail<D>();
+    acts.on_rs += A * g_s;
+    acts.on_rss += A * g_t;
+    add_elastic_nodes(elastic.hessian, k * A, rows);
+    for (const int i : {0, 1}) {
+      Pair z_i;
+      z_i << p.rs.first[i], p.rss.first[i];
+      const Pair g_i = elastic.hessian * z_i - elastic.moment_gradient * rows.kappa0_first[i];
+      const Vector by_s = (k * A) * g_i.template head<D>() + k * p.A_i[i] * g_s,
+                   by_t = (k * A) * g_i.template tail<D>() + k * p.A_i[i] * g_t;
+      acts.on_rs_i[i] += by_s;
+      acts.on_rss_i[i] += by_t;
+      acts.by_rs[i] += by_s;
+      acts.by_rss[i] += by_t;
+      acts.lagrangian[i] -=
+          k * (g_s.dot(p.rs.first[i]) + g_t.dot(p.rss.first[i]) - elastic.moment * rows.kappa0_first[i]);
+      // The moment on kappa_0, which the places change.
+      const double moment_i =
+          k * (elastic.moment_gradient.dot(z_i) - elastic.moment_slope * rows.kappa0_first[i]);
+      for (const int place : {0, 1})
+        sums_.places(place, i) -= (A * moment_i + k * p.A_i[i] * elastic.moment) * rows.kappa0_first[place] +
+                                  k * A * elastic.moment * rows.kappa0_second[place + i];
+    }
+  }
+
+  // A dead load on r.
+  void add_load(const Point& p, Action& acts) const {
+    const double k = t_.stiffness;
+    acts.on_r -= p.A * load_;
+    for (const int i : {0, 1}) {
+      acts.on_r_i[i] -= k * p.A_i[i] * load_;
+      acts.by_r[i] -= k * p.A_i[i] * load_;
+      acts.lagrangian[i] += k * load_.dot(p.r.first[i]);
+    }
+  }
+
+  // From the point to the nodes and the places.
+  void add_action(const Point& p, const Action& acts) {
+    const MovingRows& rows = p.rows;
+    const double k = t_.stiffness;
+    for (const int i : {0, 1}) {
+      Nodes shared = acts.on_r * rows.r.first[i].transpose();
+      shared.noalias() += acts.on_rs * rows.rs.first[i].transpose();
+      shared.noalias() += acts.on_rss * rows.rss.first[i].transpose();
+      Nodes &by_place = sums_.by_place[i], &of_place = sums_.of_place[i];
+      by_place.noalias() += acts.on_r_i[i] * rows.r.value.transpose();
+      by_place.noalias() += acts.on_rs_i[i] * rows.rs.value.transpose();
+      by_place.noalias() += acts.on_rss_i[i] * rows.rss.value.transpose();
+      by_place += k * shared;
+      of_place.noalias() += acts.by_r[i] * rows.r.value.transpose();
+      of_place.noalias() += acts.by_rs[i] * rows.rs.value.transpose();
+      of_place.noalias() += acts.by_rss[i] * rows.rss.value.transpose();
+      of_place += k * shared;
+      for (const int j : {0, 1})
+        sums_.places(i, j) += acts.on_r_i[j].dot(p.r.first[i]) + acts.on_rs_i[j].dot(p.rs.first[i]) +
+                              acts.on_rss_i[j].dot(p.rss.first[i]) +
+                              k * (acts.on_r.dot(p.r.second[i + j]) + acts.on_rs.dot(p.rs.second[i + j]) +
+                                   acts.on_rss.dot(p.rss.second[i + j])) -
+                              acts.lagrangian[j] * p.A_i[i];
+    }
+  }
+
+  void add_elastic_nodes(const Eigen::Matrix<double, 2 * D, 2 * D>& hessian, double factor,
+                         const MovingRows& rows) {
     using Block = Eigen::Matrix<double, D, D>;
     const Block ss = factor * hessian.template topLeftCorner<D, D>(),
                 st = factor * hessian.template topRightCorner<D, D>(),
@@ -207,8 +281,8 @@ class TangentSum {
   }
 
   // I of AxialSums, its gradient and second derivatives.
-  void add_stretch(const MovingRows::Series& rows, const Field& rs, double A,
-                   const std::array<double, 2>& A_i) {
+  void add_stretch(const Point& p) {
+    const auto& [rows, rs, A, A_i] = std::tie(p.rows.rs, p.rs, p.A, p.A_i);
     const double eps = (rs.value.squaredNorm() - 1) / 2;
     stretch_integral_ += A * eps;
     stretch_.nodes.noalias() += (A * rs.value) * rows.value.transpose();
@@ -225,7 +299,8 @@ class TangentSum {
     }
   }
 
-  void add_damping(const MovingRows& rows, const Point& p) {
+  void add_damping(const Point& p) {
+    const MovingRows& rows = p.rows;
     const double k = t_.stiffness, d = t_.damping;
     if (properties_.mass_damping > 0) add_drag(rows.r, rows.rs.value, p);
     if (!(properties_.damping > 0 || properties_.tension_damping > 0)) return;
