@@ -231,6 +231,19 @@ class Model:
             **self._by_function(motion), **keys,
         )  # fmt: skip
 
+    def add_eyelet(
+        self,
+        name: str,
+        beam: Beam | str,
+        at: Place,
+        position: npt.ArrayLike | None = None,
+        equilibrium: str | None = None,
+        **keys: Any,
+    ) -> None:
+        """Runs a beam through a ring without mass and friction that is fixed in space: at `position` [m], or where the beam
+        is drawn. `equilibrium`: "held" keeps the place `at` in it until the motion starts, "free" finds its rest."""
+        self.add("eyelets", name=name, beam=beam, at=at, position=position, equilibrium=equilibrium, **keys)
+
     def add_joint(
         self,
         beams: Sequence[Beam | str],
