@@ -6,7 +6,9 @@
 
 #include "fem/system/beam_system.h"
 #include "solver/system/tangent_matrix.h"
-#include "tests/fem/random_models.h"
+#include "tests/fem/bent_beams.h"
+#include "tests/fem/bound_force.h"
+#include "tests/fem/fastened_parts.h"
 
 namespace nurbeam {
 namespace {
@@ -27,11 +29,12 @@ template <int D>
 void check_custom_tangent(int seed) {
   std::mt19937 random(seed);
   BeamModel model = testing::model_with_everything(random, D);
-  using Point = Grip;
   const double L = model.beams[0].curve.length();
   // Beside the moving node, on a body, and far away.
-  model.forces.push_back(CustomForce{{Point::on_beam(0, 0.34 * L), Point::on_body(1)}, spring});
-  model.forces.push_back(CustomForce{{Point::on_beam(0, 0.8 * L), Point::on_beam(0, 0.32 * L)}, spring});
+  model.forces.push_back(
+      CustomForce{{testing::point_on_beam(0, 0.34 * L), testing::point_on_body(1)}, spring});
+  model.forces.push_back(
+      CustomForce{{testing::point_on_beam(0, 0.8 * L), testing::point_on_beam(0, 0.32 * L)}, spring});
   const BeamSystem system(model);
   State state = disturbed_state(system, random);
   state.t = 0.3;
@@ -68,12 +71,55 @@ TEST(CustomForce, ThatGivesTooFewForcesIsRefused) {
   BeamModel model =
       testing::one_beam({testing::line_cubic({0, 0, 0}, {1, 0, 0})}, 2, {300, 2, 0.7}, 4, {{0, true}});
   model.forces.push_back(CustomForce{
-      {Grip::on_beam(0, 0.5)},
+      {testing::point_on_beam(0, 0.5)},
       [](double, const Eigen::Matrix3Xd&, const Eigen::Matrix3Xd&) { return CustomForce::Response{}; }});
   const BeamSystem system(model);
   Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
   EXPECT_THROW(system.residual(drawn_state(system), dynamics, constraints), std::invalid_argument);
 }
+
+// Two points that pull each other along the line between them.
+CustomForce::Response pull(double, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd& v) {
+  const Eigen::Vector3d d = r.col(1) - r.col(0), n = d.normalized();
+  const Eigen::Vector3d f = (3 * d.norm() + 0.4 * n.dot(v.col(1) - v.col(0))) * n;
+  CustomForce::Response response;
+  response.force.resize(3, 2);
+  response.force << f, -f;
+  return response;
+}
+
+template <int D>
+BeamSystem pulled(double place) {
+  ModelBuilder builder(D);
+  const int beam = testing::add_bent_beam(builder, D);
+  testing::add_sliding(builder, beam, 0.7);
+  const int load = builder.add_body("load", 2, {1, -0.6, D == 3 ? 0.3 : 0});
+  builder.add(CustomForce{{testing::point_on_beam(beam, place), testing::point_on_body(load)}, pull});
+  return BeamSystem(builder.build());
+}
+
+// On a fixed element, at both ends and beside a moving node.
+template <int D>
+void check_pull() {
+  std::mt19937 random(5);
+  for (const double place : {0.0, 0.31, 0.72, 1.7}) {
+    const BeamSystem system = pulled<D>(place);
+    const auto custom = testing::the_force<D, BoundCustomForce<D>>(system);
+    State state = disturbed_state(system, random);
+    const Eigen::VectorXd dynamics = custom.dynamics(state);
+    const testing::Resultant on_beam =
+        testing::resultant(system, state, dynamics, testing::coordinates_of_beam(system, 0));
+    EXPECT_GT(on_beam.force.norm(), 0.1);
+    testing::expect_opposite(
+        on_beam, testing::resultant(system, state, dynamics, testing::coordinates_of_body(system, 1)));
+    testing::expect_actions(custom, system, state, 0);
+    testing::expect_work_of_power(custom, state);
+    state.load = 0.6;
+    testing::expect_same(custom.dynamics(state), 0.6 * dynamics, 1e-13);
+  }
+}
+TEST(CustomForce, ActsOnItsPointsAndDoesItsWorkThereInThePlane) { check_pull<2>(); }
+TEST(CustomForce, ActsOnItsPointsAndDoesItsWorkThereInSpace) { check_pull<3>(); }
 
 }  // namespace
 }  // namespace nurbeam

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/rate_test.h"
+
 namespace nurbeam {
 namespace {
 
@@ -81,6 +83,36 @@ TEST(FrictionLaw, AtAKinkTensionsAreThoseOfTheCapstanOrOfCoulomb) {
     const double tangent = mu * std::tan(theta / 2);
     EXPECT_NEAR(ratio(Friction::Law::coulomb), (1 + tangent) / (1 - tangent), 1e-9);
   }
+}
+
+// By the force, both slopes, the place and its rate, of bodies that slide and of those that stick, with a
+// kink and without one.
+TEST(FrictionLaw, HasTheDerivativesOfItsForce) {
+  std::mt19937 random(1);
+  for (const Friction::Law law : {Friction::Law::coulomb, Friction::Law::capstan})
+    for (const int slides : {1, -1, 0})
+      for (const bool kink : {false, true}) {
+        const Rubbing rubbing({.coefficient = 0.3, .law = law, .viscous = 2});
+        const auto any = [&](int size) { return testing::random_vector(size, random); };
+        FrictionPoint at = level(slides == 0 ? 1000 : 10, 1e-3, slides == 0 ? 0.01 : 4 * slides);
+        at.force += any(3);
+        at.left += 0.3 * any(3);
+        at.right = at.left + (kink ? 0.6 : 0) * any(3);
+        const Vector3d force = any(3), left = any(3), right = kink ? Vector3d(any(3)) : left;
+        const double s = 1e-3 * any(1)[0], rate = any(1)[0];
+        const FrictionForce f = rubbing.at(at, {0, 0, slides});
+        const auto moved = [&](double h) {
+          const FrictionPoint there{.force = at.force + h * force,
+                                    .left = at.left + h * left,
+                                    .right = at.right + h * right,
+                                    .s = at.s + h * s,
+                                    .rate = at.rate + h * rate,
+                                    .t = 0};
+          return rubbing.at(there, {0, 0, slides}).value;
+        };
+        testing::expect_rate_of_number(moved, f.by_force.dot(force) + f.by_left.dot(left) +
+                                                  f.by_right.dot(right) + f.by_s * s + f.by_rate * rate);
+      }
 }
 
 }  // namespace
