@@ -14,7 +14,6 @@
 namespace nurbeam {
 namespace {
 
-using Json = nlohmann::json;
 using test::full_case;
 using test::smallest_case;
 
@@ -624,16 +623,16 @@ TEST_F(CaseFileTest, KeysOfMotionsAreWarnedOfWhereThereIsNone) {
 // The schema and the reader agree: what the schema names, the full case (and the keys not offered yet) uses,
 // and the reader knows; what the reader accepts, the schema names.
 
-void collect_keys(const Json& schema, std::set<std::string>& keys) {
+void collect_keys(const nlohmann::json& schema, std::set<std::string>& keys) {
   if (schema.is_object() && schema.contains("properties")) {
     EXPECT_EQ(schema.at("additionalProperties"), false);
     for (const auto& [key, unused] : schema["properties"].items()) keys.insert(key);
   }
-  for (const Json& item : schema)
+  for (const nlohmann::json& item : schema)
     if (item.is_structured()) collect_keys(item, keys);
 }
 
-void collect_used_keys(const Json& value, std::set<std::string>& keys) {
+void collect_used_keys(const nlohmann::json& value, std::set<std::string>& keys) {
   for (const auto& [key, item] : value.items()) {
     if (value.is_object()) keys.insert(key);
     if (item.is_structured()) collect_used_keys(item, keys);
@@ -750,19 +749,19 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "stiffness",
                                                "end_masses",
                                                "to"};
-  collect_keys(Json::parse(case_file_schema()), in_schema);
-  collect_used_keys(Json::parse(full_case, nullptr, true, true), in_cases);
+  collect_keys(nlohmann::json::parse(case_file_schema()), in_schema);
+  collect_used_keys(nlohmann::json::parse(full_case, nullptr, true, true), in_cases);
   EXPECT_EQ(in_schema, in_cases);
 }
 
 TEST_F(CaseFileTest, TheSchemaStatesRangesChoicesAndExclusions) {
-  const Json schema = Json::parse(case_file_schema());
+  const nlohmann::json schema = nlohmann::json::parse(case_file_schema());
   EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
-  EXPECT_EQ(schema.at("required"), Json({"nurbeam", "beams", "analysis"}));
-  const Json& beam = schema.at("properties").at("beams").at("items").at("properties");
+  EXPECT_EQ(schema.at("required"), nlohmann::json({"nurbeam", "beams", "analysis"}));
+  const nlohmann::json& beam = schema.at("properties").at("beams").at("items").at("properties");
   EXPECT_EQ(beam.at("section").at("properties").at("radius").at("minimum"), 1e-9);
-  EXPECT_EQ(beam.at("section").at("dependentRequired").at("second_moment"), Json::array({"area"}));
-  EXPECT_EQ(beam.at("weights").at("enum"), Json({"material", "constant"}));
+  EXPECT_EQ(beam.at("section").at("dependentRequired").at("second_moment"), nlohmann::json::array({"area"}));
+  EXPECT_EQ(beam.at("weights").at("enum"), nlohmann::json({"material", "constant"}));
   EXPECT_EQ(beam.at("axis").at("allOf").at(0).at("oneOf").size(), 4u);
 }
 

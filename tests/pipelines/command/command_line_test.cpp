@@ -16,8 +16,6 @@
 namespace nurbeam {
 namespace {
 
-using Json = nlohmann::json;
-
 struct CommandOutcome {
   int code;
   std::string out, err;
@@ -112,7 +110,7 @@ TEST(CommandLine, ANameThatNoFileSystemTakesIsNamed) {
 }
 
 TEST(CommandLine, TheSchemaIsPrinted) {
-  EXPECT_TRUE(Json::parse(run_line({"schema"}).out).contains("properties"));
+  EXPECT_TRUE(nlohmann::json::parse(run_line({"schema"}).out).contains("properties"));
   EXPECT_EQ(run_line({"schema", "case"}).out, run_line({"schema"}).out);
 }
 
@@ -126,7 +124,7 @@ TEST(CommandLine, InspectListsTheCurvesOfAFile) {
   EXPECT_EQ(table.code, 0) << table.err;
   EXPECT_TRUE(text_holds(table.out, "unit mm")) << table.out;
   EXPECT_TRUE(text_holds(table.out, "(1, 0, 0)")) << table.out;
-  const Json curves = Json::parse(json.out).at(0).at("curves");
+  const nlohmann::json curves = nlohmann::json::parse(json.out).at(0).at("curves");
   ASSERT_EQ(curves.size(), 2u);
   EXPECT_EQ(curves[0].at("index"), 1);
   EXPECT_EQ(curves[0].at("name"), "arc");

@@ -18,7 +18,6 @@
 namespace nurbeam {
 namespace {
 
-using Json = nlohmann::json;
 using test::TemporaryDirectory;
 
 /// Written beside pipelines/report/report.cpp's encoder and not from it: RFC 4648 read backwards.
@@ -51,14 +50,14 @@ std::string between(const std::string& text, const std::string& start, const std
 struct Page {
   std::string text;
 
-  Json data() const {
-    return Json::parse(between(text, R"(<script type="application/json" id="data">)", "</script>"));
+  nlohmann::json data() const {
+    return nlohmann::json::parse(between(text, R"(<script type="application/json" id="data">)", "</script>"));
   }
   std::string shapes() const {
     return between(text, R"(<script type="text/plain" id="shapes">)", "</script>");
   }
   std::vector<double> column(const std::string& of, const std::string& name) const {
-    const Json all = data();
+    const nlohmann::json all = data();
     for (std::size_t i = 0; i < all["columns"].size(); ++i)
       if (all["columns"][i]["of"] == of && all["columns"][i]["name"] == name)
         return decoded<double>(all["values"][i]);
@@ -138,7 +137,8 @@ TEST(Report, HoldsTheEndsOfConnectors) {
         EXPECT_EQ(top[i], 8 + frame_of(i, 3).time);
       else
         EXPECT_TRUE(std::isnan(top[i]));
-    EXPECT_EQ(page.data()["box"][1][2], known ? Json(8 + frame_of(2, 3).time) : Json(0.0));
+    EXPECT_EQ(page.data()["box"][1][2],
+              known ? nlohmann::json(8 + frame_of(2, 3).time) : nlohmann::json(0.0));
     EXPECT_EQ(page.data()["names"]["connectors"][0], "dropper");
   }
 }
@@ -151,9 +151,10 @@ TEST(Report, LeavesOutWhatIsNothingAlongARigidGuide) {
       read[0].beams[0].elements[0].strain.setZero();
       return read;
     };
-    const Json run = {{"model", {{"beams", {{{"rigid", rigid}}}}}}};
-    const Json fields = page_of(frames, run.dump()).data()["shapes"]["fields"];
-    return std::any_of(fields.begin(), fields.end(), [&](const Json& f) { return f["name"] == name; });
+    const nlohmann::json run = {{"model", {{"beams", {{{"rigid", rigid}}}}}}};
+    const nlohmann::json fields = page_of(frames, run.dump()).data()["shapes"]["fields"];
+    return std::any_of(fields.begin(), fields.end(),
+                       [&](const nlohmann::json& f) { return f["name"] == name; });
   };
   EXPECT_TRUE(has("strain", false));
   EXPECT_FALSE(has("strain", true));
@@ -173,12 +174,12 @@ TEST(Report, HoldsHistoriesToTheLastBit) {
 
 TEST(Report, HoldsShapesFarFromTheOriginToAFloatOfTheirOwnSize) {
   const Page page = page_of(frames_of(2));
-  const Json shapes = page.data()["shapes"];
+  const nlohmann::json shapes = page.data()["shapes"];
   EXPECT_FALSE(shapes["rational"]);
   EXPECT_EQ(decoded<std::uint32_t>(shapes["element_counts"]), (std::vector<std::uint32_t>{1, 2}));
   // Box 1e6 <= x <= 1e6 + 2, 0 <= y <= 3. The first frame: four points, two places s, then eight
   // fields: their ranges, and four bytes each.
-  EXPECT_EQ(shapes["origin"], Json({1e6 + 1, 1.5, 0.0}));
+  EXPECT_EQ(shapes["origin"], nlohmann::json({1e6 + 1, 1.5, 0.0}));
   const std::size_t first_frame = (4 * 3 * 4 + 2 * 4 + 8 * (8 + 4) + 2) / 3 * 4;
   const std::vector<float> points = decoded<float>(page.shapes().substr(0, first_frame));
   EXPECT_EQ(std::vector<float>(points.begin(), points.begin() + 12),
@@ -233,7 +234,7 @@ TEST(Report, TextOfTheUserEndsNoElement) {
   const std::string hostile = "</title></script><script>alert(1)</script>&amp;<!--";
   ReportFrames frames = frames_of(1, hostile);
   frames.names.beams = {hostile};
-  const Page page = page_of(frames, Json({{"status", hostile}}).dump());
+  const Page page = page_of(frames, nlohmann::json({{"status", hostile}}).dump());
   EXPECT_EQ(page.data()["title"], hostile);
   EXPECT_EQ(page.data()["names"]["beams"][0], hostile);
   EXPECT_EQ(page.data()["run"]["status"], hostile);
@@ -350,14 +351,14 @@ TEST(ModelSummary, TellsWhereTheModelStandsInTheWorld) {
   std::ostringstream out, err;
   ASSERT_EQ(run_command_line({"run", file.string(), "--quiet", "--out", results.string()}, out, err), 0)
       << err.str();
-  const Json model = Json::parse(text_of(results / "run.json"))["model"];
-  const auto expect_vector = [](const Json& found, const Eigen::Vector3d& expected) {
+  const nlohmann::json model = nlohmann::json::parse(text_of(results / "run.json"))["model"];
+  const auto expect_vector = [](const nlohmann::json& found, const Eigen::Vector3d& expected) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i].get<double>(), expected[i], 1e-12);
   };
   EXPECT_EQ(model["dimension"], 2);
   EXPECT_NEAR(std::abs(model["plane_normal"][1].get<double>()), 1, 1e-12);
   expect_vector(model["gravity [m/s^2]"], {0, 0, -9.81});
-  const Json& beam = model["beams"][0];
+  const nlohmann::json& beam = model["beams"][0];
   EXPECT_NEAR(beam["length [m]"].get<double>(), 2, 1e-12);
   EXPECT_NEAR(beam["mass [kg]"].get<double>(), 0.2, 1e-12);
   EXPECT_EQ(beam["elements"], 3);

@@ -11,8 +11,6 @@
 namespace nurbeam {
 namespace {
 
-using Json = nlohmann::json;
-
 TEST(FileHash, AgreesWithThePublishedTestVectors) {  // FIPS 180-2, appendix B, and the empty message
   const test::TemporaryDirectory directory;
   EXPECT_EQ(sha256_of_file(directory.write("a", "abc")),
@@ -45,16 +43,16 @@ TEST(RunSummary, IsWrittenAsJsonWithUnits) {
   write_run_summary(directory.path() / "run.json", summary);
 
   std::ifstream stream(directory.path() / "run.json");
-  const Json json = Json::parse(stream);
+  const nlohmann::json json = nlohmann::json::parse(stream);
   EXPECT_EQ(json.at("nurbeam"), "1.2.3");
   EXPECT_EQ(json.at("inputs").at(0).at("sha256"), "00ff");
   EXPECT_EQ(json.at("wall_times [s]").at("length_control"), 0.25);
   EXPECT_EQ(json.at("steps"), 700);
   EXPECT_TRUE(json.at("energy_drift [J]").is_null());
-  EXPECT_EQ(json.at("events").at(0).at("momentum_before [kg m/s]"), Json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(json.at("events").at(0).at("momentum_before [kg m/s]"), nlohmann::json({1.0, 2.0, 3.0}));
   EXPECT_TRUE(json.at("events").at(0).at("s [m]").is_null());
   EXPECT_EQ(json.at("diagnostics").at(0).at("severity"), "warning");
-  EXPECT_EQ(json.at("files"), Json::array({"histories.csv"}));
+  EXPECT_EQ(json.at("files"), nlohmann::json::array({"histories.csv"}));
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "run.json.part"));
 }
 

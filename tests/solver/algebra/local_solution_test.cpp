@@ -18,7 +18,7 @@ Matrix matrix_of(int size, const std::vector<Entry>& entries) {
 }
 
 // A chain of masses of linear elements: what one row is open by fades by 0.27 from each to the next.
-std::vector<Entry> chain(int n) {
+std::vector<Entry> chain_of_masses(int n) {
   std::vector<Entry> entries;
   for (int i = 0; i < n; ++i) {
     entries.emplace_back(i, i, 4.0 + 0.3 * std::sin(i));
@@ -36,7 +36,7 @@ Eigen::VectorXd solved(const Matrix& A, const Eigen::VectorXd& b) {
 
 TEST(LocalSolution, MovesNothingFarFromWhatIsOpen) {
   constexpr int n = 600, open = 250;
-  const Matrix A = matrix_of(n, chain(n));
+  const Matrix A = matrix_of(n, chain_of_masses(n));
   for (const bool at_rest : {false, true}) {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
     if (!at_rest) x = Eigen::VectorXd::LinSpaced(n, 1, 3).array().sin();
@@ -53,7 +53,7 @@ TEST(LocalSolution, MovesNothingFarFromWhatIsOpen) {
 }
 
 TEST(LocalSolution, LeavesWhatIsClosed) {
-  const Matrix A = matrix_of(50, chain(50));
+  const Matrix A = matrix_of(50, chain_of_masses(50));
   const Eigen::VectorXd start = Eigen::VectorXd::LinSpaced(50, -1, 1);
   Eigen::VectorXd x = start;
   ASSERT_TRUE(correct_locally(A, A * x, {}, x));
@@ -63,7 +63,7 @@ TEST(LocalSolution, LeavesWhatIsClosed) {
 // A row that ties two far places together belongs to the window of the first.
 TEST(LocalSolution, FollowsAConstraint) {
   constexpr int n = 600, a = 100, b = 500;
-  std::vector<Entry> entries = chain(n);
+  std::vector<Entry> entries = chain_of_masses(n);
   for (const auto& [at, factor] : {std::pair{a, 1.0}, std::pair{b, -1.0}}) {
     entries.emplace_back(n, at, factor);
     entries.emplace_back(at, n, factor);
@@ -98,7 +98,7 @@ TEST(LocalSolution, SolvesForAllWhereNothingFades) {
 }
 
 TEST(LocalSolution, IsNoneOfASingularMatrix) {
-  std::vector<Entry> entries = chain(20);
+  std::vector<Entry> entries = chain_of_masses(20);
   entries.emplace_back(20, 20, 0);
   const Matrix A = matrix_of(21, entries);
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(21);
