@@ -60,8 +60,8 @@ class Spring {
   bool is_damper(const MeshedBeams<D>& at) const { return described(at).damping > 0; }
   /// Number of the connector in the model.
   int connector() const { return number_; }
-  /// Whether the connector's law has a kink.
-  /// The next function: whether the connector is stretched so that it carries.
+  /// carries_one_sign(): whether the connector's law has a kink; carries(): whether it is stretched so that
+  /// it carries.
   bool carries_one_sign(const MeshedBeams<D>& at) const { return described(at).sign() != 0; }
   bool carries(const MeshedBeams<D>& at, const State& state) const;
   /// Index of the connector in State::sides.

@@ -24,8 +24,7 @@ class PointLaw {
         EI_(beam.axis_bending_stiffness()),
         c_(beam.damping) {}
 
-  /// Whether the pointwise strain carries.
-  /// The next function: whether strain rates are damped.
+  /// stretches(): whether the pointwise strain carries; is_damped(): whether strain rates are damped.
   NURBEAM_WITHIN bool stretches() const { return EA_ > 0; }
   NURBEAM_WITHIN bool is_damped() const { return c_ > 0; }
 
