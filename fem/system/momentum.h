@@ -15,8 +15,10 @@ struct BodyMotions {
 BodyMotions body_motions(const BeamSystem& system, const State& state);
 
 /// The momentum that a motion of one mesh has in the coordinates of another mesh of the same model:
-/// p = int (rho A N'v + rho I_p W'w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
-/// material, plus the bodies' momenta.
+///
+///   p = int (rho A N'v + rho I_p W'w) ds over all elements, plus the bodies' momenta,
+///   N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed material.
+///
 /// Here v is the material velocity and w the spin of sections in the motion. Elements are integrated in
 /// parts, between all nodes of both meshes and breaks of the drawing. For elements with fixed ends that both
 /// meshes have, the momentum of the axis is taken over unchanged.
