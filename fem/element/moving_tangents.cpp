@@ -1,5 +1,5 @@
-// The tangent of the force of an element whose ends move, by what acts on r, r_s and r_ss. Long because that
-// is one sum over the points.
+// The tangent of the force of an element with moving ends, from forces on r, r_s and r_ss. Long because the
+// tangent is one sum over the points.
 #include "fem/element/beam_element.h"
 #include "fem/element/moving_mass.h"
 #include "fem/element/moving_point.h"
@@ -11,8 +11,8 @@ namespace {
 
 using Row = MovingRows::Row;
 
-// Summed over the points. With all rates weighted (TangentWeights), one increment of the
-// coordinates is one of positions, velocities and accelerations: each field varies by one number a node, as
+// The tangent summed over the points. With all rates weighted (TangentWeights), one increment of the
+// coordinates is one of positions, velocities and accelerations. Each field varies by one number a node, as
 // it is linear in the nodes, and by one vector a place.
 template <int D>
 class TangentSum {
@@ -42,7 +42,7 @@ class TangentSum {
                  A_rate = A_i[0] * w[0] + A_i[1] * w[1];
     const Field r(e, rows.r), rs(e, rows.rs), rss(e, rows.rss);
 
-    // Rates of the rows and what they vary by with the places.
+    // Rates of the rows and their derivatives by the places.
     const Row r1 = along(rows.r.first, w), rs1 = along(rows.rs.first, w);
     const std::array<Row, 2> r1_i = along(rows.r.second, w), rs1_i = along(rows.rs.second, w);
     const Row r2 = along(r1_i, w) + along(rows.r.first, w_rate);
@@ -60,7 +60,7 @@ class TangentSum {
     const Vector g_s = elastic.gradient.template head<D>(), g_t = elastic.gradient.template tail<D>();
     const Vector on_r = momentum_rate - A * load_, on_rs = s_rate * momentum + A * g_s, on_rss = A * g_t;
 
-    // What they vary by: of the nodes, then of the places.
+    // Derivatives of the fields: by the nodes, then by the places.
     const Row rs_rate_e = d * rows.rs.value + k * rs1;
     const Row v_e = d * rows.r.value + k * (r1 - s_rate * rows.rs.value);
     const Row acceleration_e =
@@ -140,7 +140,7 @@ class TangentSum {
     }
   }
 
-  /// `basis`: that of the points.
+  /// `basis`: basis of the points.
   ElementMatrix<D> total(const MovingBasis& basis) const {
     using Layout = ElementLayout<D>;
     constexpr int nodal = Layout::nodal;
@@ -183,7 +183,7 @@ class TangentSum {
     return {by[0] * w[0] + by[1] * w[1], by[1] * w[0] + by[2] * w[1]};
   }
 
-  // What a point of a damped element has been found to be.
+  // Fields and derivatives at a point of a damped element.
   struct Point {
     const Field &r, &rs, &rss;
     const std::array<double, 2>&s_i, &A_i;
@@ -206,7 +206,7 @@ class TangentSum {
     }
   }
 
-  // I of AxialSums, its gradient and second derivatives.
+  // Adds to I of AxialSums, its gradient and second derivatives.
   void add_stretch(const MovingRows::Series& rows, const Field& rs, double A,
                    const std::array<double, 2>& A_i) {
     const double eps = (rs.value.squaredNorm() - 1) / 2;
@@ -229,7 +229,7 @@ class TangentSum {
     const double k = t_.stiffness, d = t_.damping;
     if (properties_.mass_damping > 0) add_drag(rows.r, rows.rs.value, p);
     if (!(properties_.damping > 0 || properties_.tension_damping > 0)) return;
-    // The rate of r_s at fixed material, and what it varies by.
+    // The rate of r_s at fixed material, and its derivatives.
     const Vector rate = p.rs_rate - p.rss.value * p.s_rate;
     const Row rate_e = p.rs_rate_e - (k * p.s_rate) * rows.rss.value;
     Vectors rate_i;
@@ -239,7 +239,7 @@ class TangentSum {
     add_rate_of_stretch(rows, p, rate, rate_e, rate_i);
   }
 
-  // Of a force on the material velocity.
+  // Adds the tangent of a drag on the material velocity.
   void add_drag(const MovingRows::Series& rows, const Row& along, const Point& p) {
     const double k = t_.stiffness;
     const double c = properties_.mass_damping * properties_.mass_per_length, cA = c * p.A;
@@ -257,7 +257,7 @@ class TangentSum {
     }
   }
 
-  // Of the stress of strains at the point, on r_s and r_ss.
+  // Adds the tangent of viscous stress of strains at the point, on r_s and r_ss.
   void add_viscosity(const MovingRows& rows, const Point& p, const Vector& rs_rate, const Row& rs_rate_e,
                      const Vectors& rs_rate_i) {
     const auto& [e, e_rate, e_second, w, w_rate] = motion_;
@@ -311,7 +311,8 @@ class TangentSum {
     }
   }
 
-  // The rate of I at fixed material, and the force of a tension of viscosity 1, both for r_s alone.
+  // Adds to the rate of I at fixed material, and to the force of a tension of viscosity 1, both for r_s
+  // alone.
   void add_rate_of_stretch(const MovingRows& rows, const Point& p, const Vector& rate, const Row& rate_e,
                            const Vectors& rate_i) {
     const double k = t_.stiffness, A = p.A;
@@ -345,7 +346,8 @@ class TangentSum {
     }
   }
 
-  // AssumedAxialDamping: stress of (I, eps_A, eps_B) at fixed material, on their gradients in the rates, Z.
+  // Adds the tangent of AssumedAxialDamping: stresses on (I, eps_A, eps_B) at fixed material, times their
+  // gradients in the rates, Z.
   void add_axial_damping(double l, const MovingBasis& basis, ElementMatrix<D>& K) const {
     using Layout = ElementLayout<D>;
     using Rows = Eigen::Matrix<double, 3, Layout::size>;
@@ -365,7 +367,7 @@ class TangentSum {
       rate[1 + end] = slope.dot(slope_rate);
       Z.template block<1, D>(1 + end, at) = slope.transpose();
       Z(1 + end, place) = -bend.dot(slope);
-      Gradient<D> bending;  // of slope . bend in bend alone
+      Gradient<D> bending;  // gradient of slope . bend by bend alone
       bending.nodes = slope * rss.value.transpose();
       for (const int j : {0, 1}) bending.places[j] = slope.dot(e * rss.first[j]);
       auto own_rate = rate_q.row(1 + end);
@@ -395,12 +397,12 @@ class TangentSum {
   typename MovingPoint<D>::Motion motion_;
   Eigen::Matrix<double, 4 * D, 4 * D> nodal_;
   PlaceSums<D> sums_;
-  double stretch_integral_ = 0;  ///< I of AxialSums, and its gradient
+  double stretch_integral_ = 0;  ///< I of AxialSums; stretch_: its gradient
   Gradient<D> stretch_;
-  Eigen::Matrix2d stretch_places_ = Eigen::Matrix2d::Zero();  ///< its second derivatives by the places
-  // Of damped elements: the rate of I at fixed material, its gradients in the coordinates (with the rates
-  // weighted) and in the rates of the places, and the derivatives of its gradient in all rates, which in the
-  // rates of the nodes is that of I.
+  Eigen::Matrix2d stretch_places_ = Eigen::Matrix2d::Zero();  ///< second derivatives of I by the places
+  // For damped elements: the rate of I at fixed material and its gradients in the coordinates (with the rates
+  // weighted) and in the rates of the places. Further the derivatives of this gradient in all rates; in the
+  // rates of the nodes it is the gradient of I.
   double stretch_rate_ = 0;
   Gradient<D> rate_gradient_;
   std::array<double, 2> test_places_{};
