@@ -14,8 +14,8 @@ struct PointNumbers {
   P weight, kappa0, eps0;
 };
 
-/// One number at each Gauss point of a part of an element, side by side; a last lane makes the count even, as
-/// processors work in pairs.
+/// One number at each Gauss point of a part of an element, side by side; a last lane makes the count even,
+/// as suits the processor.
 using Lanes = SideBySide<GaussRule::size + GaussRule::size % 2>;
 
 /// The Gauss points of a part of an element by itself. Lanes beyond the points repeat the last one without
