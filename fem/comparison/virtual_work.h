@@ -5,11 +5,11 @@
 /// Ouyang, for comparison with the element's own forces: it drifts.
 namespace nurbeam::virtual_work {
 
-/// As BeamElement::force, for an element whose ends move.
+/// M q'' + Q in form P, arguments as for BeamElement::force, for an element whose ends move.
 template <int D>
 ElementVector<D> force(const BeamElement<D>& element, const ElementState<D>& x,
                        const Eigen::Matrix<double, D, 1>& load);
-/// As BeamElement::tangent.
+/// The derivative of the force, arguments as for BeamElement::tangent.
 template <int D>
 ElementMatrix<D> tangent(const BeamElement<D>& element, const ElementState<D>& x,
                          const Eigen::Matrix<double, D, 1>& load, const TangentWeights& w);

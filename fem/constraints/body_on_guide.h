@@ -7,8 +7,8 @@
 namespace nurbeam {
 
 /// A body on a rigid guide, r_0(sigma) = r_body on the drawn curve itself: D rows; coordinates of the body,
-/// then sigma. The segment is that of the place in the plan, which goes on beyond its ends as far as a step
-/// leads.
+/// then sigma. The constraint uses the segment at the place in the plan, continued beyond its ends as far as
+/// a step leads.
 template <int D>
 class BodyOnGuide {
  public:

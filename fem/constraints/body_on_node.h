@@ -7,7 +7,7 @@
 namespace nurbeam {
 
 /// A body with coordinates of its own on its moving node, r_node = r_body: D rows; coordinates of the node,
-/// then of the body. Its multipliers are the beam's force on the body.
+/// then of the body. The multipliers are the beam's force on the body.
 template <int D>
 class BodyOnNode {
  public:

@@ -25,7 +25,7 @@ class BodyOnPoint {
   static constexpr ConstraintOffers offers{.action = true};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
-  /// What it does to the beam.
+  /// The force of the body on the beam.
   PointAction action(const MeshedBeams<D>& at, const State& state,
                      const typename ConstraintTerms<D>::Multipliers& y) const {
     const MeshElement<D>& e = at.elements[element_];

@@ -9,9 +9,9 @@
 
 namespace nurbeam {
 
-/// A body at an offset from the axis, in the section that it follows (FollowedNode, FollowedPoint): r + y1 d1
-/// + y2 d2 - r_body = 0, 3 rows. Their multipliers are the force on the axis, with the couple e x lambda on
-/// the section, e = y1 d1 + y2 d2.
+/// A body at an offset from the axis, in the section that it follows (FollowedNode, FollowedPoint):
+/// r + y1 d1 + y2 d2 - r_body = 0, 3 rows. The multipliers are the force on the axis, with the couple e x
+/// lambda on the section, e = y1 d1 + y2 d2.
 template <class Section>
 class BodyOnSection {
  public:
@@ -40,14 +40,14 @@ class BodyOnSection {
   /// First coordinate of the body.
   int body() const { return body_; }
 
-  /// What it does to the beam, where the body is on a point.
+  /// The force and couple of the body on the beam, where the body is carried as a point.
   std::optional<PointAction> action(const MeshedBeams<3>& at, const State& state,
                                     const Eigen::Vector3d& y) const;
 
   ConstraintTerms<3> terms(const MeshedBeams<3>& at, const State& state,
                            const ConstraintTerms<3>::Multipliers* y) const;
 
-  /// (3) v . H v of each row, of the velocities of its coordinates.
+  /// (3) v . H v of each row, for the velocities v of the constraint's coordinates.
   Eigen::Vector3d curvature(const MeshedBeams<3>& at, const State& state,
                             const Eigen::Matrix<double, ConstraintTerms<3>::size, 1>& v) const;
 
@@ -77,9 +77,9 @@ class BodyOnSection {
   Section section_;
   Eigen::Vector3d arm_;
   int body_;
-  std::optional<BodyOnPoint<3>> point_;  // where the section is that of a point
+  std::optional<BodyOnPoint<3>> point_;  // where the section is at a point
   std::vector<int> dofs_;
-  std::array<int, Section::size> column_{};  // of the section's coordinates among dofs_
+  std::array<int, Section::size> column_{};  // column of each coordinate of the section among dofs_
 };
 
 extern template class BodyOnSection<FollowedNode>;

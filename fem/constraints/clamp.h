@@ -19,7 +19,7 @@ class HeldDirection {
   static constexpr int rows = D - 1;
   const std::vector<int>& dofs() const { return dofs_; }
 
-  /// The couple of the clamp on the beam [N m] for its multipliers.
+  /// The couple of the clamp on the beam for its multipliers [N m].
   Eigen::Vector3d couple(const MeshedBeams<D>& at, const State& state,
                          const Eigen::Ref<const Eigen::VectorXd>& y) const {
     const Eigen::Matrix<double, D, 1> on_slope = -across_.transpose() * y;

@@ -12,16 +12,16 @@
 #include "fem/constraints/support.h"
 #include "fem/structure/type_list.h"
 
-/// The lists of constraints: all that has to be said of a new one outside its own file.
+/// The lists of constraints: a new constraint needs a change here and nowhere else outside its own file.
 ///
-/// A description (Constraint: Support, ...) offers bind<D>(description, at, drawn, add), which adds the
-/// constraints that it means in a mesh. A constraint in a mesh has `rows` (at most D), dofs() (global
-/// coordinates, -1 for none, at most those of two elements), terms(at, state, y): ConstraintTerms<D> with the
-/// Hessian contracted with y where that is not null, and says in `offers` (constraint_offers.h) which hooks
-/// it has besides; the lists below hold it to that.
+/// A description (Constraint: Support, ...) offers bind<D>(description, at, drawn, add), which adds its
+/// constraints in a mesh. A constraint in a mesh has `rows` (at most D) and dofs(): global coordinates, -1
+/// for none, at most as many as two elements have. Its terms(at, state, y) are ConstraintTerms<D>, with the
+/// Hessian contracted with y where y is not null. It declares in `offers` (constraint_offers.h) which hooks
+/// it has besides; the assertions below check that.
 namespace nurbeam {
 
-/// In either dimension, and `Others` besides.
+/// The kinds of constraints in either dimension, and `Others` besides.
 template <int D, class... Others>
 using ConstraintList =
     std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
@@ -43,9 +43,9 @@ static_assert(all_keep_constraint_offers<2>(static_cast<BoundConstraint<2>*>(nul
 static_assert(all_keep_constraint_offers<3>(static_cast<BoundConstraint<3>*>(nullptr)),
               "a constraint offers what it has not, or the reverse");
 
-/// What the parts of a structure ask for by themselves, in the order of the rows, after those of
-/// descriptions: each offers bind(binding, add), and `moves` where its constraints do over the mesh. As
-/// restart points know multipliers by their rows, a new one comes last.
+/// Sources of constraints: the parts of a structure that bring constraints by themselves, in the order of the
+/// rows, after those of descriptions. Each offers bind(binding, add), and `moves` where its constraints move
+/// over the mesh. Restart points know multipliers by their rows, so a new source comes last.
 template <int D>
 using ConstraintSources = TypeList<RiderTies<D>, KeptContact<D>, CornerAngle<D>, KeptLength<D>>;
 

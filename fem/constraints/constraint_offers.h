@@ -9,21 +9,21 @@
 
 namespace nurbeam {
 
-/// What a constraint in a mesh offers besides rows, dofs() and terms(at, state, y), each by the function in
-/// brackets.
+/// The hooks that a constraint in a mesh offers besides rows, dofs() and terms(at, state, y), each with its
+/// function in brackets.
 struct ConstraintOffers {
-  bool linear = false;     ///< it has no Hessian
+  bool linear = false;     ///< the constraint has no Hessian
   bool rates = false;      ///< (rate(t), acceleration(t)) dg/dt and d2g/dt2 at fixed q
   bool curvature = false;  ///< (curvature(at, state, v)) v . d2g/dq2 v, cheaper than by the Hessian
-  bool force = false;      ///< (force(y)) of its multipliers on the beam, where that is not -y
-  bool couple = false;     ///< (couple(at, state, y)) on the beam, in place of a force
-  bool action = false;     ///< (action(at, state, y)) on a point of a beam, if there is one
-  bool on_body = false;    ///< (on_body(body, state, y)) what it gives to a body [N]
-  bool work = false;       ///< (work(from, to, y_from, y_to)) done between two states on one mesh [J]
+  bool force = false;      ///< (force(y)) force on the beam for its multipliers; without this hook it is -y
+  bool couple = false;     ///< (couple(at, state, y)) couple on the beam, in place of a force
+  bool action = false;     ///< (action(at, state, y)) force and couple on a point of a beam, if there is one
+  bool on_body = false;    ///< (on_body(body, state, y)) force on a body [N]
+  bool work = false;       ///< (work(from, to, y_from, y_to)) work between two states on one mesh [J]
   bool body = false;       ///< (body()) first coordinate of a body that follows what the other coordinates do
-  bool place = false;      ///< (place()) the coordinate of a place that it holds
-  bool stop = false;       ///< (closed_stop()) the number of the stop that it keeps closed
-  bool connector = false;  ///< (connector()) the number of its connector, with length_and_force(state, y)
+  bool place = false;      ///< (place()) coordinate of the place that the constraint holds
+  bool stop = false;       ///< (closed_stop()) number of the stop that the constraint keeps closed
+  bool connector = false;  ///< (connector()) number of the rod, with length_and_force(state, y)
 };
 
 namespace hooks {
@@ -40,7 +40,7 @@ NURBEAM_HOOK(closed_stop);
 
 }  // namespace hooks
 
-/// Whether a constraint keeps to what it says that it offers, in dimension D: a misspelt hook does not
+/// Whether a constraint has exactly the hooks that it offers, in dimension D: a misspelt hook does not
 /// compile.
 template <class C, int D>
 consteval bool keeps_constraint_offers() {

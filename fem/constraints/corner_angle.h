@@ -16,8 +16,8 @@ class CornerAngle {
       for (int d = 0; d < D; ++d) dofs_.push_back(slope + d);
   }
 
-  /// What the rigid corners of all beams ask for: the angle, or with torsion the orientation of both
-  /// sections.
+  /// Binds the constraints of the rigid corners of all beams: the angle, or with torsion the relative
+  /// orientation of both sections.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     for (std::size_t b = 0; b < binding.at.mesh.nodes.size(); ++b) bind_corners(binding.at, b, add);

@@ -3,16 +3,16 @@
 
 namespace nurbeam {
 
-/// D - 1 directions across t, of unit length and at right angles to each other in space; in the plane as long
-/// as t.
+/// D - 1 directions across t. In the plane the direction is as long as t. In space the two are at right
+/// angles to each other; the first has unit length, the second is as long as t.
 template <int D>
 Eigen::Matrix<double, D - 1, D> directions_across(const Eigen::Vector3d& t) {
   Eigen::Matrix<double, D - 1, D> n;
   if constexpr (D == 2) {
     n << -t.y(), t.x();
   } else {
-    // The first axis that is about as far from t as any: where two are as far, as drawings have it,
-    // directions beside t take the same one.
+    // The first axis that is about as far from t as any. In drawings two axes are often equally far;
+    // directions close to t then take the same one.
     constexpr double about = 0.1234;
     const Eigen::Vector3d along = t.cwiseAbs();
     int axis = 0;

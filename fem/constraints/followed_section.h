@@ -4,7 +4,7 @@
 
 namespace nurbeam {
 
-/// The section that a sliding body follows, of its node: coordinates (r_s, angle).
+/// The section of its node that a sliding body follows: coordinates (r_s, angle).
 class FollowedNode {
  public:
   static constexpr int size = 4;
@@ -56,7 +56,7 @@ class FollowedPoint {
   std::array<int, size> dofs_;
 };
 
-/// Values of some coordinates; zero for those that a mesh has not (-1).
+/// Values of some coordinates; zero for those that a mesh does not have (-1).
 template <std::size_t n>
 Eigen::Matrix<double, static_cast<int>(n), 1> gathered(const std::array<int, n>& dofs,
                                                        const Eigen::VectorXd& values) {

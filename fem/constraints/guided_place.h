@@ -6,8 +6,8 @@
 
 namespace nurbeam {
 
-/// A place of a beam moves along a line alone: n . (r(s) - r_0(s) - d(t)) = 0 for the D - 1 directions n
-/// across it.
+/// A place of a beam that moves along a line alone: n . (r(s) - r_0(s) - d(t)) = 0 for the D - 1 directions n
+/// across the line.
 template <int D>
 class GuidedPlace {
  public:
@@ -24,7 +24,7 @@ class GuidedPlace {
   static constexpr ConstraintOffers offers{.linear = true, .rates = true, .force = true, .work = true};
   static constexpr int rows = D - 1;
   const std::vector<int>& dofs() const { return dofs_; }
-  /// On the beam [N], for its multipliers.
+  /// The force on the beam for its multipliers [N].
   Eigen::Vector3d force(const Eigen::Ref<const Eigen::VectorXd>& y) const {
     return widened<D>(Vector(-across_.transpose() * y));
   }
@@ -40,7 +40,7 @@ class GuidedPlace {
     return terms;
   }
 
-  /// Done on the way between two states on one mesh [J]: the mean force.
+  /// Work between two states on one mesh [J]: the mean force over the displacement.
   double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
               const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
     if (!motion_) return 0;

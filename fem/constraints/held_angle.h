@@ -5,13 +5,13 @@
 
 namespace nurbeam {
 
-/// The angle between the slopes of two beams at a rigid rider, or of one beam before and after a corner, held
-/// at that of the drawing, as the constraint g(a, b) = 0 of both slopes a = r_s and b = r_s there.
+/// The angle between two slopes, held as it is drawn: of two beams at a rigid joint, or of one beam before
+/// and after a corner. The constraint is g(a, b) = 0 for the slopes a = r_s and b = r_s.
 ///
 /// In the plane g = cos(theta0) a x b - sin(theta0) a . b = |a| |b| sin(theta - theta0), bilinear and regular
-/// for every angle. In space g = a . b - cos(theta0) |a| |b|: as beams have no torsion, each may turn about
-/// the other; its gradient vanishes where the slopes are parallel, for which there is no such rider or
-/// corner.
+/// for every angle. In space g = a . b - cos(theta0) |a| |b|: beams without torsion may turn about each
+/// other. The gradient in space vanishes where the slopes are parallel; no joint or corner has parallel
+/// slopes.
 template <int D>
 class HeldAngle {
  public:
@@ -24,12 +24,12 @@ class HeldAngle {
     Eigen::Matrix<double, 2 * D, 2 * D> hessian;
   };
 
-  /// From the unit tangents of the drawing.
+  /// The angle between two unit tangents of the drawing.
   HeldAngle(const Vector& a, const Vector& b) : cosine_(a.dot(b)) {
     if constexpr (D == 2) sine_ = a.x() * b.y() - a.y() * b.x();
   }
 
-  /// Of two tangents of drawings, 3 each.
+  /// The angle between two tangents of drawings, 3 each.
   static HeldAngle drawn(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return {a.head<D>().normalized(), b.head<D>().normalized()};
   }

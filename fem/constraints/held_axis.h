@@ -7,12 +7,12 @@
 
 namespace nurbeam {
 
-/// A hinge with an axis: a section turns about it alone, against space or against another section. With the
-/// axis u fixed there and v, w across it fixed in the section, u . v = u . w = 0: 2 rows, regular at any
-/// angle but where the axis is reversed; coordinates (r_s, angle) of the section, then of the other.
+/// A hinge with an axis: a section turns about this axis alone, against space or against another section.
+/// The axis u is fixed there, and v, w across it are fixed in the section: u . v = u . w = 0. 2 rows, regular
+/// at any angle unless the axis is reversed; coordinates (r_s, angle) of the section, then of the other one.
 class HeldAxis {
  public:
-  /// `axis`: as drawn, of any length but zero; with the `other` section it goes with that.
+  /// `axis`: as drawn, of any length but zero; with `other` it is fixed in that section.
   HeldAxis(const NodeSection& section, const Eigen::Vector3d& axis) : section_(section) { set(axis); }
   HeldAxis(const NodeSection& section, const NodeSection& other, const Eigen::Vector3d& axis)
       : section_(section), other_(other) {
@@ -25,7 +25,7 @@ class HeldAxis {
 
   ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
                            const ConstraintTerms<3>::Multipliers* y) const;
-  /// On the section of a support, on the other one of a rider [N m], for its multipliers.
+  /// The couple for its multipliers [N m]: of a support on the section, of a joint on the other section.
   Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
                          const Eigen::Ref<const Eigen::VectorXd>& y) const;
 
@@ -46,19 +46,19 @@ class HeldAxis {
     if (other_) x.tail<4>() = other_->coordinates(q);
     return x;
   }
-  // u.
+  // The axis u in a state.
   template <class T>
   Vector3<T> axis(const Vector8<T>& x) const {
     const Vector3<T> own = axis_.cast<T>();
     return other_ ? Vector3<T>(other_->triad<T>(x.template tail<4>()).matrix() * own) : own;
   }
-  // y1 v + y2 w.
+  // y1 v + y2 w in a state.
   template <class T>
   Vector3<T> across(const Vector8<T>& x, const Eigen::Vector2d& y) const {
     const Eigen::Vector3d own = across_ * y;
     return section_.triad<T>(x.template head<4>()).matrix() * own.cast<T>();
   }
-  // Of y . g.
+  // Gradient of y . g.
   template <class T>
   Vector8<T> gradient(const Vector8<T>& x, const Eigen::Vector2d& y) const {
     const Vector3<T> u = axis<T>(x), v = across<T>(x, y);
@@ -71,8 +71,8 @@ class HeldAxis {
 
   NodeSection section_;
   std::optional<NodeSection> other_;
-  Eigen::Vector3d axis_;                // in the other's drawn axes, or in space
-  Eigen::Matrix<double, 3, 2> across_;  // v and w in the section's
+  Eigen::Vector3d axis_;                // in the drawn axes of the other section, or in space
+  Eigen::Matrix<double, 3, 2> across_;  // v and w in the axes of the section
   std::vector<int> dofs_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace nurbeam {
 
-/// The place of a rider is a given one, s = s(t): 1 row.
+/// The place of a rider, held or prescribed, s = s(t): 1 row.
 template <int D>
 class HeldPlace {
  public:
@@ -25,9 +25,9 @@ class HeldPlace {
     terms.gradient(0, 0) = 1;
     return terms;
   }
-  /// The coordinate that it holds.
+  /// The coordinate of the place.
   int place() const { return dofs_[0]; }
-  /// Done on the way between two states on one mesh [J]: the mean force.
+  /// Work between two states on one mesh [J]: the mean force over the displacement.
   double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
               const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
     return -(y_from[0] + y_to[0]) / 2 * (to.q[place()] - from.q[place()]);

@@ -8,8 +8,8 @@
 
 namespace nurbeam {
 
-/// A body stands at a point, r_body = r_drawn + load (position - r_drawn): D rows. Minus its multipliers is
-/// the force on the body, and so of an eyelet on the beam that runs through it.
+/// A body held at a point, r_body = r_drawn + load (position - r_drawn): D rows. The force on the body is
+/// minus its multipliers; for an eyelet it is the force on the beam that runs through it.
 template <int D>
 class HeldPositionOfBody {
  public:
@@ -34,7 +34,7 @@ class HeldPositionOfBody {
     terms.gradient.template leftCols<D>().diagonal().setOnes();
     return terms;
   }
-  /// What it gives to a body [N].
+  /// The force on a body [N].
   Vector on_body(int body, const State&, const typename ConstraintTerms<D>::Multipliers& y) const {
     return body == body_ ? Vector(-y) : Vector(Vector::Zero());
   }

@@ -4,8 +4,8 @@
 
 namespace nurbeam {
 
-/// The section of a clamped node keeps its drawn angle, theta = 0 in the chart of the drawing: 1 row. With
-/// the direction of the slope, which is held too, that is its drawn triad.
+/// The section of a clamped node keeps its drawn angle, theta = 0 in the chart of the drawing: 1 row. As the
+/// clamp holds the direction of the slope too, the section keeps its drawn triad.
 class ClampedRoll {
  public:
   explicit ClampedRoll(const NodeSection& node) : tangent_(node.drawn.col(2)), dofs_{node.dofs[3]} {}
@@ -21,7 +21,7 @@ class ClampedRoll {
     terms.gradient(0, 0) = 1;
     return terms;
   }
-  /// On the beam [N m], for its multiplier.
+  /// The couple on the beam for its multiplier [N m].
   Eigen::Vector3d couple(const MeshedBeams<3>&, const State&,
                          const Eigen::Ref<const Eigen::VectorXd>& y) const {
     return -y[0] * tangent_;
@@ -43,7 +43,7 @@ class ForkedRoll {
 
   ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
                            const ConstraintTerms<3>::Multipliers* y) const;
-  /// On the beam [N m], for its multiplier.
+  /// The couple on the beam for its multiplier [N m].
   Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
                          const Eigen::Ref<const Eigen::VectorXd>& y) const;
 

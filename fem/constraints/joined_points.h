@@ -8,7 +8,7 @@
 
 namespace nurbeam {
 
-/// r_a(s_a) - r_b(s_b) is that of the drawing: D rows; coordinates of both elements.
+/// Two material points keep their drawn offset r_a(s_a) - r_b(s_b): D rows; coordinates of both elements.
 template <int D>
 class JoinedPoints {
  public:

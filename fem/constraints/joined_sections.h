@@ -4,12 +4,12 @@
 
 namespace nurbeam {
 
-/// Two sections keep the relative orientation that they have in the drawing: of two beams at a rigid rider,
-/// or of one before and after a corner. 3 rows; coordinates (r_s, angle) of both.
+/// Two sections keep the relative orientation of the drawing: sections of two beams at a rigid joint, or of
+/// one beam before and after a corner. 3 rows; coordinates (r_s, angle) of both.
 ///
-/// g = sum_i a_i x b_i/2 = 0 with the triad a_i of the one and b_i = sum_j C0_ij d_j that of the other as it
-/// was drawn from the first. Where g = 0 its variation is the difference of both spins, so the multiplier is
-/// the moment [N m]. g vanishes again where the two are turned by 180 degrees.
+/// g = sum_i a_i x b_i/2 = 0, where a_i is the triad of the first section and b_i = sum_j C0_ij d_j the triad
+/// that it should have by the second one. Where g = 0 its variation is the difference of both spins, so the
+/// multiplier is the moment [N m]. g also vanishes where the sections are turned by 180 degrees.
 class JoinedSections {
  public:
   JoinedSections(const NodeSection& a, const NodeSection& b)
@@ -23,7 +23,7 @@ class JoinedSections {
 
   ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
                            const ConstraintTerms<3>::Multipliers* y) const;
-  /// On the first of the two [N m], for its multipliers.
+  /// The couple on the first section for its multipliers [N m].
   Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
                          const Eigen::Ref<const Eigen::VectorXd>& y) const;
 
@@ -32,14 +32,14 @@ class JoinedSections {
   using Vector8 = Eigen::Matrix<T, 8, 1>;
   template <class T>
   struct Triads {
-    Eigen::Matrix<T, 3, 3> a, b;  // a_i and b_i, columns
+    Eigen::Matrix<T, 3, 3> a, b;  // columns a_i and b_i
   };
   template <class T>
   Triads<T> triads(const Vector8<T>& x) const {
     return {a_.triad<T>(x.template head<4>()).matrix(),
             b_.triad<T>(x.template tail<4>()).matrix() * relative_.transpose().cast<T>()};
   }
-  // What y . g changes by with the spins of both.
+  // Moments by which y . g changes with the spins of both sections.
   template <class T>
   struct Moments {
     Vector3<T> a, b;
@@ -55,7 +55,7 @@ class JoinedSections {
     }
     return on;
   }
-  // Of y . g.
+  // Gradient of y . g.
   template <class T>
   Vector8<T> gradient(const Vector8<T>& x, const Eigen::Vector3d& y) const {
     const Triads<T> both = triads<T>(x);
@@ -66,7 +66,7 @@ class JoinedSections {
   }
 
   NodeSection a_, b_;
-  Eigen::Matrix3d relative_;  // C0: columns are B's drawn axes in A's
+  Eigen::Matrix3d relative_;  // C0: columns are the drawn axes of B in the axes of A
   std::vector<int> dofs_;
 };
 

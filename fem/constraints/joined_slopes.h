@@ -11,7 +11,7 @@ namespace nurbeam {
 template <int D>
 struct PointPair {
   PointOnBeam<D> a, b;
-  std::vector<int> dofs;  ///< of a's element, then of b's
+  std::vector<int> dofs;  ///< of the element of a, then of that of b
 
   PointPair(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam_a, double s_a, int beam_b,
             double s_b)
@@ -31,7 +31,7 @@ class JoinedSlopes {
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return points_.dofs; }
 
-  /// The couple on the first beam [N m] for its multiplier.
+  /// The couple on the first beam for its multiplier [N m].
   Eigen::Vector3d couple(const MeshedBeams<D>& at, const State& state,
                          const Eigen::Ref<const Eigen::VectorXd>& y) const {
     const Eigen::Matrix<double, D, 1> a = points_.a.shape(at, state.q).slope().value,

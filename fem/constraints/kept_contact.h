@@ -7,15 +7,15 @@
 
 namespace nurbeam {
 
-/// A body that rests against a hard stop, or two that rest against each other: d = 0, 1 row; coordinates of
-/// StopDistance. Its multiplier is the negative of the force between them.
+/// A kept contact of a body with a hard stop, or of two bodies: d = 0, 1 row; coordinates of StopDistance.
+/// The multiplier is the negative of the contact force.
 template <int D>
 class KeptContact {
  public:
   KeptContact(const MeshedBeams<D>& at, int stop)
       : number_(stop), distance_(at.structure, at.mesh, at.structure.stops[stop]) {}
 
-  /// Of all stops that are closed.
+  /// Binds the contacts of all stops that are closed.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     const MeshedBeams<D>& at = binding.at;
@@ -23,13 +23,13 @@ class KeptContact {
       if (at.mesh.plan.is_closed(i) && is_in_place(at.mesh, at.structure.stops[i])) add(KeptContact(at, i));
   }
 
-  /// In the model.
+  /// Number of the stop in the model.
   int closed_stop() const { return number_; }
 
   static constexpr ConstraintOffers offers{.on_body = true, .stop = true};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return distance_.dofs(); }
-  /// What it gives to a body [N].
+  /// The force on a body [N].
   Eigen::Matrix<double, D, 1> on_body(int body, const State& state,
                                       const Eigen::Ref<const Eigen::VectorXd>& y) const {
     return distance_.on_body(body, state.q, -y[0]).template head<D>();

@@ -5,7 +5,7 @@
 
 namespace nurbeam {
 
-/// A rod, a connector that keeps its length, |d| = l_0 or n . d = l_0: 1 row, whose multiplier is its pull N.
+/// A rod, |d| = l_0 or n . d = l_0: 1 row. The multiplier is its pull N.
 template <int D>
 class KeptLength {
  public:
@@ -14,7 +14,7 @@ class KeptLength {
         connector_(&at.structure.connectors[connector]),
         axis_(*connector_, at.structure, at.mesh) {}
 
-  /// Of all rods.
+  /// Binds all rods.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     const std::vector<Connector>& connectors = binding.at.structure.connectors;
@@ -25,14 +25,14 @@ class KeptLength {
   static constexpr ConstraintOffers offers{.on_body = true, .connector = true};
   static constexpr int rows = 1;
   const std::vector<int>& dofs() const { return axis_.dofs(); }
-  /// In the model.
+  /// Number of the rod among the connectors of the model.
   int connector() const { return number_; }
-  /// |d| or n . d [m], and N [N].
+  /// Length |d| or n . d [m], and N [N].
   std::pair<double, double> length_and_force(const State& state,
                                              const Eigen::Ref<const Eigen::VectorXd>& y) const {
     return {axis_.line(state).length, y[0]};
   }
-  /// What it gives to a body [N].
+  /// The force on a body [N].
   Eigen::Matrix<double, D, 1> on_body(int body, const State& state,
                                       const Eigen::Ref<const Eigen::VectorXd>& y) const {
     const Eigen::Matrix<double, D, 1> pull = y[0] * axis_.line(state).n;

@@ -4,10 +4,9 @@
 
 namespace nurbeam {
 
-/// Where a slope is discontinuous at a sliding body, the section goes over the kink as parallel transport has
-/// it: the one behind is not turned about the tangent against the one before, d2_a . d1_b - d1_a . d2_b = 0
-/// (SectionTurn::S). 1 row; coordinates (r_s, angle) of both sides. So torsion passes the body, and bending
-/// does not.
+/// The section goes over a kink at a sliding body by parallel transport. The section behind the kink is not
+/// turned about the tangent against the one before it: d2_a . d1_b - d1_a . d2_b = 0 (SectionTurn::S). 1 row;
+/// coordinates (r_s, angle) of both sides. Torsion so passes the body, and bending does not.
 class PassedRoll {
  public:
   PassedRoll(const MeshedBeams<3>& at, int rider)
@@ -34,7 +33,7 @@ class PassedRoll {
     return {NodeSection(at.elements[first + (node + spans - 1) % spans], 1),
             NodeSection(at.elements[first + node], 0)};
   }
-  // The spins of both change S by m . (dphi_a - dphi_b), m = d2_a x d1_b - d1_a x d2_b.
+  // Gradient of S: the spins change S by m . (dphi_a - dphi_b), m = d2_a x d1_b - d1_a x d2_b.
   template <class T>
   Vector8<T> gradient(const Vector8<T>& x) const {
     const SectionTriad<T> a = a_.triad<T>(x.template head<4>()), b = b_.triad<T>(x.template tail<4>());

@@ -9,7 +9,8 @@
 
 namespace nurbeam {
 
-/// Where the body of a rider is: one constraint, or none where it has no coordinates of its own.
+/// Binds the body of a rider to its place: one constraint, or none where the body has no coordinates of its
+/// own.
 template <int D, class Add>
 void bind_body(int j, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
   if (at.structure.beam_of(at.structure.riders[j]).rigid) return add(BodyOnGuide<D>(at, j));
@@ -24,10 +25,10 @@ void bind_body(int j, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Ad
   if (at.structure.riders[j].stands_apart()) add(BodyOnNode<D>(at, j));
 }
 
-/// What riders ask for as they are carried in a mesh.
+/// Constraints of the riders, as the mesh carries them.
 template <int D>
 struct RiderTies {
-  /// They last less than the rest: they move over the mesh.
+  /// Ties last less long than other constraints: they move over the mesh.
   static constexpr bool moves = true;
 
   template <class Add>

@@ -9,7 +9,7 @@
 
 namespace nurbeam {
 
-/// r(s) = r_0(s) + d(t): D rows.
+/// A place of a beam held where it is drawn, or moved from there: r(s) = r_0(s) + d(t), D rows.
 template <int D>
 class HeldPosition {
  public:
@@ -39,7 +39,7 @@ class HeldPosition {
     return terms;
   }
 
-  /// Done on the way between two states on one mesh [J]: the mean force.
+  /// Work between two states on one mesh [J]: the mean force over the displacement.
   double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
               const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
     if (!motion_) return 0;

@@ -10,8 +10,8 @@
 
 namespace nurbeam {
 
-/// What the assumed axial strain of an element is made of, y = (I, eps_A, eps_B, l) with I = int eps ds, and
-/// its gradient in q; eps_A and eps_B are those of the nodal slopes.
+/// The numbers that give the assumed axial strain of an element, y = (I, eps_A, eps_B, l) with I = int eps
+/// ds, and their gradient in q; eps_A and eps_B are the strains of the nodal slopes.
 template <int D>
 struct AxialSums {
   using Layout = ElementLayout<D>;
@@ -20,7 +20,7 @@ struct AxialSums {
   Eigen::Vector4d y;
   Eigen::Matrix<double, 4, n> y_q;
 
-  /// With I = 0: the points are to be added.
+  /// Sums with I = 0, to which the points are to be added.
   explicit AxialSums(const ElementVector<D>& q) {
     y.setZero();
     y_q.setZero();
@@ -38,14 +38,14 @@ struct AxialSums {
     y[0] += weight * eps;
     y_q.row(0) += weight * rs.value.transpose() * rs.gradient + eps * weight_q.transpose();
   }
-  /// Takes a uniform strain that carries no force out of all of them: I - int eps_free ds, ...
+  /// Subtracts a uniform free strain from all sums: I - int eps_free ds, ...
   void take_out(double free_strain) {
     y[0] -= free_strain * y[3];
     y.segment<2>(1).array() -= free_strain;
     y_q.row(0) -= free_strain * y_q.row(3);
   }
 
-  /// `free`: the strain that has been taken out.
+  /// `free`: the strain that was subtracted.
   AssumedAxialEnergy energy(const BeamProperties& beam, double free) const {
     return assumed_axial_energy<GaussRule>(beam, y, free);
   }
@@ -68,7 +68,7 @@ struct TautViscosity {
   ElementVector<D> gradient = ElementVector<D>::Zero();  ///< in q
 
   TautViscosity() = default;
-  /// `sums`: without the strain `free`, which carries no force.
+  /// `sums`: without the free strain `free`.
   TautViscosity(const BeamProperties& properties, const AxialSums<D>& sums, double free,
                 std::optional<bool> taut) {
     const double I = sums.y[0], l = sums.y[3];

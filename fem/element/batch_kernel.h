@@ -43,13 +43,13 @@ struct ElementBatch<D>::Kernel {
     }
     return nodes;
   }
-  /// The nodes of q.
+  /// Nodal values of q.
   NURBEAM_WITHIN Nodes positions(const State& state) const {
     Nodes e = gathered(state.q.data());
     for (int d = 0; d < D; ++d) e[3][d] += batch.slope_offset_[d];
     return e;
   }
-  /// The nodes of v, for which without damping nobody asks.
+  /// Nodal values of v; unset without damping, where nothing reads them.
   NURBEAM_WITHIN Nodes rates(const State& state) const {
     Nodes e_rate;
     if (formulas.beam.is_damped()) e_rate = gathered(state.v.data());

@@ -45,7 +45,7 @@ void BeamElement<D>::stand_beside(std::shared_ptr<FixedLanes> others, int lane) 
   lane_ = lane;
 }
 
-// The next Gauss point of a fixed element, with its number in its part.
+// Adds the next Gauss point of a fixed element; `point`: its number in its part.
 template <int D>
 void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0,
                                Own& own) const {

@@ -38,16 +38,16 @@ enum class Ends { fixed, moving };
 template <int D>
 class ElementBatch;
 
-/// What does not change in one element between length-control events.
+/// The data of one element that do not change between length-control events.
 ///
 /// All forces are the Euler-Lagrange expressions of one discrete Lagrangian: T - U of the fields of
 /// ElementBasis, summed over Gauss points that sit at fixed fractions of the element's reference arc length
 /// (of each part, where the element spans breaks of the drawing). With moving ends this is form V of
 /// docs/theory.md.
 ///
-/// Damping: c of the strains; alpha rho A v against the material velocity v; and what beta makes of the
-/// stiffness S of tension, beta S dr_s/dt on r_s at fixed material, S = EA times the mean strain (0 where
-/// that is compression).
+/// Damping has three parts: c times the strain rates; alpha rho A v against the material velocity v; and beta
+/// S dr_s/dt on r_s at fixed material. The stiffness S of tension is EA times the mean strain, and 0 in
+/// compression.
 template <int D>
 class BeamElement {
  public:
@@ -58,7 +58,7 @@ class BeamElement {
   BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart, double s_a,
               double s_b, Ends ends);
 
-  /// The same on another curve, which is drawn alike from end to end, with equal properties.
+  /// This element on another curve that is drawn alike from end to end, with equal properties.
   BeamElement on(const ReferenceCurve& curve, const BeamProperties& properties) const {
     BeamElement element = *this;
     element.curve_ = &curve;
@@ -70,11 +70,12 @@ class BeamElement {
   const BeamProperties& properties() const { return *properties_; }
   const Chart& chart() const { return chart_; }
   bool fixed() const { return ends_ == Ends::fixed; }
-  /// Whether its ends are fixed and it is on one part of the drawing: then others can stand beside it.
+  /// Whether the element has fixed ends and lies on one part of the drawing, so that others can stand beside
+  /// it.
   bool is_one_part() const { return beside_ || (own_ && own_->packs.size() == 1); }
-  /// Moves its numbers into a lane, which must be the first that is free. Precondition: is_one_part().
+  /// Moves the element's numbers into a lane, which must be the first free one. Precondition: is_one_part().
   void stand_beside(std::shared_ptr<FixedLanes> others, int lane);
-  /// Whether its numbers stand in that lane of those in whose first one those of `first` stand.
+  /// Whether the element's numbers stand in this lane, beside those of `first` in lane 0.
   bool stands_beside(const BeamElement& first, int lane) const {
     return beside_ && beside_ == first.beside_ && lane_ == lane && first.lane_ == 0;
   }
@@ -82,7 +83,8 @@ class BeamElement {
   /// d/dt(dT/dv) - dT/dq + dU/dq + damping - external potential; `load`: dead load per reference length
   /// [N/m], rho A g included.
   ElementVector<D> force(const ElementState<D>& x, const Vector& load) const;
-  /// What that of an element whose ends move is summed up from, for one place of each end.
+  /// The data at the points from which the force of an element with moving ends is summed, for one place of
+  /// each end.
   struct Points {
     struct Point {
       MovingRows rows;
@@ -93,11 +95,11 @@ class BeamElement {
     std::vector<Point> all;
   };
   Points points(const ElementVector<D>& q) const;
-  /// The same force, for ends that are there.
+  /// The force, where `points` belong to the present places of the ends.
   ElementVector<D> force(const ElementState<D>& x, const Vector& load, const Points& points) const;
-  /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of that force F.
+  /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of the force F.
   ElementMatrix<D> tangent(const ElementState<D>& x, const Vector& load, const TangentWeights& w) const;
-  /// The same for two sets of weights.
+  /// The tangents for two sets of weights.
   std::array<ElementMatrix<D>, 2> tangents(const ElementState<D>& x, const Vector& load,
                                            const std::array<TangentWeights, 2>& w) const;
   ElementEnergy energy(const ElementState<D>& x, const Vector& load) const;
@@ -106,31 +108,31 @@ class BeamElement {
   ElementNodes<D> nodal_momentum(const ElementNodes<D>& rates) const {
     return with_sums([&](const FixedSums& sums) { return ElementNodes<D>(rates * matrix_of(sums.mass)); });
   }
-  /// Whether it is in tension, as its damping has it.
+  /// Whether the element is in tension, as its damping sees it.
   bool is_taut(const ElementState<D>& x) const { return taut_viscosity(x).value > 0; }
-  /// Deformed [m].
+  /// Deformed length [m].
   double length(const ElementVector<D>& q) const;
-  /// What the assumed strain is made of, with its gradient in q.
+  /// The numbers that give the assumed strain, with their gradient in q.
   AxialSums<D> axial_sums(const ElementVector<D>& q) const;
   /// int S'_k S'_l ds for the end positions in q: int eps ds of the pointwise axial strain is e S e / 2 less
   /// strain_of_axis(q), e the nodes.
   Eigen::Matrix4d stretch(const ElementVector<D>& q) const;
   /// int (1/2 + eps_0) ds for the end positions in q [m].
   double strain_of_axis(const ElementVector<D>& q) const;
-  /// Largest difference of the pointwise axial strain from the assumed one, at the Gauss points: how much
-  /// bending between the nodes the element cannot follow without stretching.
+  /// Maximum difference of the pointwise axial strain from the assumed one, at the Gauss points. It tells how
+  /// much bending between the nodes the element cannot follow without stretching.
   double axial_mismatch(const ElementVector<D>& q) const;
-  /// The coefficient of the fourth Legendre polynomial in the pointwise axial strain: what the assumed one
-  /// does not see of it, but for an odd part that moves no position.
+  /// The coefficient of the fourth Legendre polynomial in the pointwise axial strain: the part that the
+  /// assumed strain does not see, except for an odd part that moves no position.
   double quartic_strain(const ElementVector<D>& q) const;
-  /// The axial strain that carries, where it is not the pointwise one.
+  /// The assumed axial strain; nothing where the strain is pointwise.
   std::optional<AssumedStrain> assumed_strain(const ElementVector<D>& q) const;
 
   /// Shape functions for the end positions in q.
   ElementBasis<double> basis(const ElementVector<D>& q) const;
-  /// The same at material point s.
+  /// Shape functions at material point s.
   ShapeFunctions<double> shape(const ElementVector<D>& q, double s) const { return basis(q).at(s); }
-  /// The same as functions of the end positions.
+  /// Shape functions and their derivatives as functions of the end positions.
   MovingBasis moving_basis(const ElementVector<D>& q, Derivatives wanted = Derivatives::two) const;
   /// The shape functions as series in the end positions, s fixed.
   ShapeFunctions<Jet> shape_series(const ElementVector<D>& q, double s) const;
@@ -143,7 +145,7 @@ class BeamElement {
   /// in both); a part between two breaks of the drawing has its own points.
   template <class T, class Visit>
   void for_each_point(const T& s_a, const T& s_b, Visit&& visit) const;
-  /// The same between the ends in q, as series in both.
+  /// Calls visit(shape, s, weight) at every Gauss point between the ends in q, as series in both.
   template <class Visit>
   void for_each_point(const ElementVector<D>& q, Visit&& visit) const {
     using Layout = ElementLayout<D>;
@@ -152,10 +154,10 @@ class BeamElement {
 
  private:
   friend class ElementBatch<D>;  // takes the numbers side by side
-  // Those of an element with fixed ends by itself.
+  // The numbers of an element with fixed ends that stands alone.
   struct Own {
     FixedSums sums;
-    std::vector<PointPack> packs;  // one of each part
+    std::vector<PointPack> packs;  // one per part
   };
   // Calls use(sums), visit(pack) with the numbers of each part, of an element with fixed ends.
   template <class Use>
@@ -189,8 +191,8 @@ class BeamElement {
   const BeamProperties* properties_;
   Chart chart_;
   Ends ends_;
-  int lane_ = 0;  // in beside_
-  // Fixed elements only: one of these.
+  int lane_ = 0;  // lane in beside_
+  // For fixed elements only, one of own_ and beside_.
   std::shared_ptr<const Own> own_;
   std::shared_ptr<FixedLanes> beside_;
 };
@@ -203,7 +205,7 @@ void BeamElement<D>::for_each_point(const T& s_a, const T& s_b, Visit&& visit) c
   for_each_place(s_a, s_b, [&](const T& s, const T& weight) { visit(basis.at(s), s, weight); });
 }
 
-// Calls visit(s, weight) at the same places.
+// Calls visit(s, weight) at the places of the Gauss points.
 template <int D>
 template <class T, class Visit>
 void BeamElement<D>::for_each_place(const T& s_a, const T& s_b, Visit&& visit) const {

@@ -34,7 +34,7 @@ Eigen::RowVector4d hermite_at(double u, double weight, double u_a, double l) {
 
 Eigen::Matrix<double, 5, 4> hermite_along(const ChartPlace& p, double u_a, double l) {
   const double xi = (p.u[0] - u_a) / l, xi2 = xi * xi, xi3 = xi2 * xi, i = 1 / l;
-  Eigen::Matrix<double, 5, 4> f;  // by u
+  Eigen::Matrix<double, 5, 4> f;  // functions and derivatives by u
   f.row(0) << 1 - 3 * xi2 + 2 * xi3, l * (xi - 2 * xi2 + xi3), 3 * xi2 - 2 * xi3, l * (xi3 - xi2);
   f.row(1) << 6 * i * (xi2 - xi), 1 - 4 * xi + 3 * xi2, 6 * i * (xi - xi2), 3 * xi2 - 2 * xi;
   f.row(2) << i * i * (12 * xi - 6), i * (6 * xi - 4), i * i * (6 - 12 * xi), i * (6 * xi - 2);

@@ -29,7 +29,7 @@ double fourth_derivative(const std::array<double, 4>& J) {
   return (10 * J[0] * J[1] * J[2] - J[0] * J[0] * J[3] - 15 * J[1] * J[1] * J[1]) * i2 * i2 * i2 * i;
 }
 
-// 1 / x.
+// The series 1 / x.
 EndSeries<3> inverse(const EndSeries<3>& x) {
   const double i = 1 / x.c[0];
   EndSeries<3> y = -i * x;  // 1 - i x
@@ -46,7 +46,7 @@ EndSeries<N> constant(double value) {
   return x;
 }
 
-// As partial derivatives.
+// The series as a Jet.
 template <int N>
 Jet jet(const EndSeries<N>& x) {
   Jet::Coefficients c{};
@@ -86,11 +86,11 @@ ConstantWeightBasis::Shapes<N> ConstantWeightBasis::shapes_at(const Jet& s) cons
   const ChartPlace p = place_of(*curve_, segment_, s.value());
   const double u4 = fourth_derivative(p.J);
   const EndSeries<N> l_1 = truncated<N>(inverse_length_);
-  EndSeries<N> x = (at_place<N>(p.u, s) - truncated<N>(u_a_)) * l_1;  // xi, and then what it moves by
+  EndSeries<N> x = (at_place<N>(p.u, s) - truncated<N>(u_a_)) * l_1;  // xi, and then its change
   const Eigen::Matrix<double, 5, 4> F = functions_at(x.c[0]);
   x.c[0] = 0;
   const EndSeries<N> x2 = x * x, x3 = x2 * x;
-  // xi_s, xi_ss, xi_sss at fixed ends, and what multiplies the derivatives of F in those along s.
+  // xi_s, xi_ss, xi_sss at fixed ends are the factors of the derivatives of F in the derivatives along s.
   const auto low = [](const auto& series) { return truncated<N - 1>(series); };
   const auto least = [](const auto& series) { return truncated<N - 2>(series); };
   const EndSeries<N - 1> y = low(x), y2 = low(x2);

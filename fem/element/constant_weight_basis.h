@@ -9,23 +9,20 @@
 
 namespace nurbeam {
 
-/// The shape functions of an element whose four weights stay with it (Chart::constant_weights) and their
-/// derivatives in the end positions.
-///
-/// With xi = (u - u_A) / l and W = W(xi) they are F_k(xi) c_k, c = (1, l J_A, 1, l J_B), with four rational
-/// functions F_k that no end changes. So only xi, l J_A, l J_B and, for derivatives along s, the derivatives
-/// of xi = u / l at fixed ends are series.
+/// With xi = (u - u_A) / l and W = W(xi) the shape functions are F_k(xi) c_k, c = (1, l J_A, 1, l J_B), with
+/// four rational functions F_k that do not depend on the ends. Only xi, l J_A, l J_B are series, and for
+/// derivatives along s also the derivatives of xi = u / l at fixed ends.
 class ConstantWeightBasis {
  public:
   /// Precondition: `chart` has constant weights.
   ConstantWeightBasis(const ReferenceCurve& curve, const Chart& chart, double s_a, double s_b);
 
-  /// As MovingBasis.
+  /// Shape functions at s, as MovingBasis has them.
   ShapeFunctions<Jet> at(const Jet& s) const;
   MovingRows rows_at(const Jet& s, Derivatives wanted) const;
 
  private:
-  /// Of r to degree N, of r_s and r_ss to N - 1, of r_sss to N - 2.
+  /// Series of r to degree N, of r_s and r_ss to degree N - 1, of r_sss to degree N - 2.
   template <int N>
   struct Shapes {
     std::array<EndSeries<N>, 4> value;
@@ -35,7 +32,7 @@ class ConstantWeightBasis {
   };
   template <int N>
   Shapes<N> shapes_at(const Jet& s) const;
-  /// Of F: a column each of the four, a row each of the first five xi-derivatives.
+  /// The functions F: a column each of the four, a row each of the first five xi-derivatives.
   Eigen::Matrix<double, 5, 4> functions_at(double xi) const;
 
   const ReferenceCurve* curve_;

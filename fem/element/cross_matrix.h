@@ -3,7 +3,7 @@
 
 namespace nurbeam {
 
-/// A with A b = a x b.
+/// The matrix A with A b = a x b.
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   A(2, 1) = a.x();

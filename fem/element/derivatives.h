@@ -2,7 +2,7 @@
 
 namespace nurbeam {
 
-/// How many derivatives are wanted: forces need one, tangents two.
+/// Number of derivatives that are wanted: forces need one, tangents two.
 enum class Derivatives { one, two };
 
 }  // namespace nurbeam

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 constexpr double smallest_angle = pi / 180;  ///< between the tangent and `up`
 
-// A parameter, or one that varies: value, first and second derivative.
+// A parameter, or a number that varies with it: value, first and second derivative.
 using Varying = Dual<1, Dual<1>>;
 
 // The first three derivatives of the segment by its parameter, at u.
@@ -56,7 +56,7 @@ struct Bend {
 };
 
 // d(angle)/du of parallel transport along a segment against the smallest rotation from t_a: transport_rate
-// times |r'|. Asked for at many places: r' and r'' come from the powers of u in (W r, W), with r from the
+// times |r'|. As it is evaluated often, r' and r'' come from the powers of u in (W r, W), with r from the
 // first control point.
 class TransportRate {
  public:
@@ -101,7 +101,7 @@ bool is_short(const RationalCubic& segment, double u_0, double u_1) {
                   whole) < 1e-14;
 }
 
-// Parameters where pieces start that are short enough, and the end.
+// Adds the ends of pieces from u_0 to u_1 that are short enough.
 void add_pieces(const RationalCubic& segment, double u_0, double u_1, std::vector<double>& ends) {
   if (is_short(segment, u_0, u_1)) {
     ends.push_back(u_1);
@@ -113,7 +113,7 @@ void add_pieces(const RationalCubic& segment, double u_0, double u_1, std::vecto
 
 Vector3d across(const Vector3d& direction, const Vector3d& t) { return direction - direction.dot(t) * t; }
 
-// d1 of the triad whose d2 is along `direction` as far as that is across t.
+// Axis d1 of the triad whose d2 points along the part of `direction` across t.
 Vector3d first_axis(const Vector3d& direction, const Vector3d& t, double s) {
   const Vector3d d2 = across(direction, t);
   if (!(d2.norm() > std::sin(smallest_angle) * direction.norm()))
@@ -214,7 +214,7 @@ double DrawnSections::rule_turn(const RationalCubic& segment, int j, double u_0,
   return to(u_1) - to(u_0);
 }
 
-// The twist of the rule, without what turns it besides.
+// The twist by the rule, without the added twist.
 template <class T>
 T DrawnSections::rule_twist(const RationalCubic& segment, const T& u) const {
   if (orientation_.rule == Orientation::Rule::start) return 0.0;
@@ -228,13 +228,13 @@ T DrawnSections::rule_twist(const RationalCubic& segment, const T& u) const {
 
 namespace {
 
-// The derivatives by s of what varies with the parameter, of stretch J = ds/du.
+// The derivatives by s of a number that varies with the parameter; J = ds/du is the stretch.
 std::array<double, 3> by_length(const Varying& f, const Varying& J) {
   const double first = f.d[0].value / J.value.value;
   return {f.value.value, first, (f.d[0].d[0] - first * J.d[0].value) / (J.value.value * J.value.value)};
 }
 
-// y with y' = W x y, and its derivatives.
+// y and its derivatives for y' = W x y.
 std::array<Vector3d, 3> turning(const Vector3d& y, const std::array<Vector3d, 3>& W) {
   const Vector3d first = W[0].cross(y);
   return {y, first, W[1].cross(y) + W[0].cross(first)};

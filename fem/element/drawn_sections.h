@@ -9,54 +9,53 @@
 
 namespace nurbeam {
 
-/// The section of a drawing at one place: a right-handed triad, and how it changes along the drawing.
+/// The section of a drawing at one place: a right-handed triad, and its changes along the drawing.
 struct DrawnSection {
   Eigen::Vector3d d1, d2, t;
   Eigen::Vector3d curvature;  ///< t x dt/ds [1/m]
-  double twist;               ///< d1' . d2, turns about t per length [rad/m]
+  double twist;               ///< d1' . d2, turn about t per length [rad/m]
 };
 
-/// A drawn section and how it changes: values with their first and second derivatives by s.
+/// A drawn section with its curvature and twist: values with their first and second derivatives by s.
 struct DrawnSectionSeries {
   std::array<Eigen::Vector3d, 3> d1, d2, t;
   std::array<double, 3> k1, k2;  ///< curvature about d1 and d2 [1/m]
   std::array<double, 3> twist;   ///< [rad/m]
 };
 
-/// The sections of a drawn curve in space, by its orientation.
-///
 /// Rule::start is parallel transport along each segment (Bishop's frame): the smallest rotation from the
-/// start of a piece, turned by the integral of transport_rate, to about 1e-13 rad; from segment to segment,
-/// over small angles and corners alike, by the smallest rotation between the two tangents. On a closed curve
-/// it comes back turned by the holonomy, which is taken out evenly along it.
+/// start of a piece, turned by the integral of transport_rate, to about 1e-13 rad. From segment to segment,
+/// over small angles and corners alike, the frame turns by the smallest rotation between the two tangents. On
+/// a closed curve the frame comes back turned by the holonomy, which is taken out evenly along the curve.
 class DrawnSections {
  public:
-  /// `breaks`: arc lengths of the ends of the segments. Throws std::invalid_argument, with the place, where
-  /// the orientation means nothing: along `up`, without curvature for `frenet` (below 1e-6 over the length)
-  /// or where that jumps by an angle from segment to segment, rows of the twist that do not increase, and a
-  /// twist that does not close on a closed curve.
+  /// `breaks`: arc lengths of the ends of the segments.
+  /// Throws std::invalid_argument, with the place, where the orientation has no meaning: along `up`; for
+  /// `frenet` without curvature (below 1e-6 over the length) or where the curvature's direction jumps by an
+  /// angle from segment to segment; for rows of the twist that do not increase; and for a twist that does not
+  /// close on a closed curve.
   DrawnSections(const std::vector<RationalCubic>& segments, const std::vector<double>& breaks, bool closed,
                 Orientation orientation);
 
-  /// In segment j, given again with its number, at its parameter u, which is the arc length s.
+  /// The section in segment j, given again with its number, at its parameter u, which is the arc length s.
   DrawnSection at(const RationalCubic& segment, int j, double u, double s) const;
   DrawnSectionSeries series(const RationalCubic& segment, int j, double u, double s) const;
-  /// The integral of the twist between two arc lengths is that of the rule, over the part [u_0, u_1] of
-  /// segment j, and the added one.
+  /// The integral of the twist between two arc lengths has two parts: the turn by the rule, over the part
+  /// [u_0, u_1] of segment j, and the added turn.
   double rule_turn(const RationalCubic& segment, int j, double u_0, double u_1) const;
   double added_turn(double s_0, double s_1) const { return added_turn(s_1).angle - added_turn(s_0).angle; }
-  /// Whether the rule's is not 0.
+  /// Whether the rule turns sections at all.
   bool turns_by_rule() const { return orientation_.rule != Orientation::Rule::start; }
   /// The angle by which parallel transport along a closed curve comes back turned [rad]; 0 on an open one.
   double holonomy() const { return holonomy_; }
 
  private:
-  // The parameter where a piece starts, and the transported frame there.
+  // A piece of a segment: the parameter where it starts, and the transported frame there.
   struct Piece {
     double u;
     Eigen::Vector3d t, d1;
   };
-  // What turns a section about its tangent, and its rate with two derivatives.
+  // A turn of a section about its tangent, with its rate and two derivatives of the rate.
   struct Turn {
     double angle;
     std::array<double, 3> rate;
@@ -71,10 +70,10 @@ class DrawnSections {
   void check_twist(bool closed) const;
 
   Orientation orientation_;
-  std::vector<double> slopes_;              // of the twist, at its rows
+  std::vector<double> slopes_;              // slopes of the twist at its rows
   std::vector<std::vector<Piece>> pieces_;  // per segment, with Rule::start
   double length_, holonomy_ = 0;
-  std::vector<Panels> turns_;  // of the rule's twist, per segment, with other rules
+  std::vector<Panels> turns_;  // turn by the rule, per segment, for other rules
 };
 
 }  // namespace nurbeam

@@ -22,7 +22,7 @@ struct Dual {
     return x;
   }
 
-  /// What has the value `y` and the derivative d = factor x.d.
+  /// The number with value `y` and derivative d = factor x.d.
   static constexpr Dual chained(const T& y, const T& factor, const Dual& x) {
     Dual z;
     z.value = y;
@@ -89,14 +89,14 @@ struct Dual {
   }
 };
 
-/// The plain number in a scalar of any of these types.
+/// The plain number in a scalar: the value without derivatives.
 inline double plain(double x) { return x; }
 template <int N, class T>
 double plain(const Dual<N, T>& x) {
   return plain(x.value);
 }
 
-/// The same under the name that series have.
+/// The plain number, under the name that series use.
 template <int N, class T>
 double value(const Dual<N, T>& x) {
   return plain(x);

@@ -58,7 +58,8 @@ NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::tangents(const State& state, d
 template <int D>
 ElementBatch<D>::ElementBatch(const BeamProperties& properties) : properties_(&properties) {}
 
-// Numbers that stand side by side already are not copied; what others look at is not changed.
+// Takes the numbers of an element. Numbers that stand side by side already are not copied; numbers that
+// others share are not changed.
 template <int D>
 void ElementBatch<D>::take_numbers(const BeamElement<D>& element) {
   if (element.beside_ && element.lane_ == count_ && (count_ == 0 || element.beside_ == numbers_)) {

@@ -1,4 +1,4 @@
-// An element whose ends are fixed, by itself.
+// An element with fixed ends, by itself.
 #include <algorithm>
 #include <cmath>
 

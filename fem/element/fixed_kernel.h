@@ -10,7 +10,7 @@
 
 namespace nurbeam {
 
-/// Numbers of points as one number of the element: the sum of those side by side, or the number itself.
+/// A number of points as one number of the element: the sum of those side by side, or the number itself.
 template <int n>
 double total(const SideBySide<n>& numbers) {
   return numbers.sum();
@@ -20,12 +20,12 @@ requires(!requires { T::SizeAtCompileTime; }) NURBEAM_WITHIN const T& total(cons
   return number;
 }
 
-/// Force, energies, length and tangent of an element whose ends are fixed, written once for an element by
-/// itself (P: numbers at the Gauss points side by side, E: double) and for eight elements side by side (P and
-/// E: their numbers). docs/theory.md, form V with places at rest.
+/// Force, energies, length and tangent of an element with fixed ends, written once. For an element by itself
+/// P are numbers at the Gauss points side by side and E is double. For eight elements side by side P and E
+/// are their numbers. See docs/theory.md, form V with places at rest.
 ///
-/// Nodes hold r_A, r_sA, r_B, r_sB by node and direction; `e`, `e_rate`: of q and v. `side`: 1 where
-/// tension_damping is held to be that of tension, else 0; null where the strain says so.
+/// Nodes hold r_A, r_sA, r_B, r_sB by node and direction; `e`, `e_rate`: nodal values of q and v. `side`: 1
+/// where the law of tension_damping is held on the side of tension, else 0; null where the strain decides.
 template <int D, class P, class E>
 struct FixedKernel {
   static constexpr int nodal = 4 * D;
@@ -46,7 +46,7 @@ struct FixedKernel {
   PointLaw law{beam};
   bool material = beam.curvature == CurvatureMeasure::material;
   bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
-  /// Whether strains of the axis carry at the points: not where sections bend and the axial strain is
+  /// Whether strains of the axis give forces at the points: not where sections bend and the axial strain is
   /// assumed.
   bool at_points = !beam.sections || !assumed;
 
@@ -72,7 +72,7 @@ struct FixedKernel {
     return sum;
   }
 
-  /// Deformed [m].
+  /// Deformed length [m].
   NURBEAM_WITHIN E length(const Nodes& e) const {
     E sum = zero<E>();
     for (int i = 0; i < count; ++i) {
@@ -96,7 +96,7 @@ struct FixedKernel {
       for (int i = 0; i < j; ++i) K[i][j] = K[j][i];
   }
 
-  /// sum_k e_k S_k.
+  /// sum_k e_k S_k of nodal values.
   template <class N>
   NURBEAM_WITHIN static Components<D, N> combination(const Nodes& e, const std::array<N, 4>& S) {
     Components<D, N> sum;
@@ -123,8 +123,9 @@ struct FixedKernel {
       for (int d = 0; d < D; ++d) sum[k][d] += factor * term[k][d];
   }
 
-  /// I = (tr(e G e') - l)/2 - int eps_0 ds less the free strain, and dI/de = e G, with positions counted from
-  /// the start, which G does not see: far from the origin they would leave their round-off.
+  /// The integral I = (tr(e G e') - l)/2 - int eps_0 ds, less that of the free strain, and dI/de = e G.
+  /// Positions count from the start of the element: G does not see the start, and far from the origin
+  /// round-off would remain.
   struct Stretch {
     Nodes by_e;
     E integral;
@@ -144,7 +145,7 @@ struct FixedKernel {
     stretch.integral = (stretch.integral - sums.length) / 2. - sums.strain0[0] - free_strain * sums.length;
     return stretch;
   }
-  /// The strain at the nodal slope of an end, 1 or 3, less the free one.
+  /// The strain at the nodal slope of an end, 1 or 3, less the free strain.
   NURBEAM_WITHIN E end_strain(const Nodes& e, int slope) const {
     return green_strain<D>(e[slope]) - sums.strain0[(slope + 1) / 2] - free_strain;
   }
@@ -174,7 +175,7 @@ struct FixedKernel {
     }
   }
 
-  /// The assumed axial strain, its damping and that of the tension.
+  /// Adds the forces of the assumed axial strain, of its damping and of the damping of tension.
   NURBEAM_WITHIN void add_axial_forces(const Nodes& e, const Nodes& e_rate, Nodes& force) const {
     if (!assumed && !(beam.tension_damping > 0)) return;
     const auto [I_e, I] = stretch(e);
@@ -252,7 +253,7 @@ struct FixedKernel {
             K[k * D + b][m * D + a] = a == b ? E(factor * sums.mass[k][m]) : zero<E>();
   }
 
-  /// By z = (r_s, r_ss) at a point: w.stiffness of d(stress)/dz + w.damping of d(stress)/dz'.
+  /// The tangent in z = (r_s, r_ss) at a point: w.stiffness d(stress)/dz + w.damping d(stress)/dz'.
   NURBEAM_WITHIN PairMatrix<D, P> point_tangent(const Components<D, P>& rs, const Components<D, P>& rss,
                                                 const Nodes& e_rate, const PointNumbers<P>& p,
                                                 const TangentWeights& w) const {
@@ -307,7 +308,7 @@ struct FixedKernel {
     }
   }
 
-  /// The blocks above the diagonal alone, unless `full`.
+  /// Adds the tangents of the points: only the blocks above the diagonal, unless `full`.
   NURBEAM_WITHIN void add_point_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
                                          bool full, Tangents& K) const {
     for (int i = 0; i < count; ++i) {
@@ -324,7 +325,7 @@ struct FixedKernel {
     }
   }
 
-  /// Stresses on x = (I, eps_A, eps_B) and their derivatives by x, weighted; by the rates alone where damped.
+  /// Stresses on x = (I, eps_A, eps_B) and their weighted derivatives by x; by the rates only with damping.
   struct AxialTangent {
     E on_I, on_a, on_b;
     E II, Ia, Ib, aa, ab, bb;
@@ -339,7 +340,8 @@ struct FixedKernel {
             slope * m.m0b,   slope * l * m.maa,   slope * l * m.mab,   slope * l * m.mbb};
   }
 
-  /// With x = (I, eps_A, eps_B) and its rate x' = x_q v: x_qq and d(x')/dq are G and ones.
+  /// Adds the tangents of the axial stresses. With x = (I, eps_A, eps_B) and its rate x' = x_q v, x_qq and
+  /// d(x')/dq are G and ones.
   NURBEAM_WITHIN void add_axial_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
                                          bool full, Tangents& K) const {
     const auto [I_e, I] = stretch(e);
@@ -364,7 +366,7 @@ struct FixedKernel {
     add_axial_products(e, I_e, by_x, &e_rate, &by_rate, full, K);
   }
 
-  /// A slope where k is its node, else 0.
+  /// Component b of nodal value k if k is `of`, the index of a slope; else 0.
   NURBEAM_WITHIN static E slope(const Nodes& nodes, int k, int of, int b) {
     return k == of ? nodes[of][b] : zero<E>();
   }

@@ -4,7 +4,7 @@
 
 namespace nurbeam {
 
-// There is nothing in them but numbers.
+// FixedLanes consists of numbers only, so that it can be read as an array.
 double FixedLanes::product(int lane, const FixedLanes& other, int lane_of_other) const {
   constexpr int size = sizeof(FixedLanes) / sizeof(ElementLanes);
   const auto *own = reinterpret_cast<const ElementLanes*>(this),
@@ -56,7 +56,7 @@ FixedSums FixedLanes::sums(int lane) const {
   return sums;
 }
 
-// Lanes beyond the points repeat the last one without weight.
+// The numbers of a lane as a pack. Lanes beyond the points repeat the last one without weight.
 PointPack FixedLanes::pack(int lane) const {
   PointPack pack;
   for (int i = 0; i < Lanes::SizeAtCompileTime; ++i) {

@@ -7,7 +7,7 @@
 
 namespace nurbeam {
 
-/// Integrals over an element whose ends are fixed.
+/// Integrals over an element with fixed ends.
 template <class E>
 struct ElementSums {
   std::array<std::array<E, 4>, 4> mass;     ///< rho A int S_k S_l ds
@@ -18,13 +18,13 @@ struct ElementSums {
 };
 using FixedSums = ElementSums<double>;
 
-/// A matrix of FixedSums as Eigen has it.
+/// A matrix of FixedSums as an Eigen matrix.
 inline Eigen::Map<const Eigen::Matrix4d> matrix_of(const std::array<std::array<double, 4>, 4>& numbers) {
   return Eigen::Map<const Eigen::Matrix4d>(numbers[0].data());
 }
 
-/// One number of each of eight elements, side by side; no number until it is given one. In two halves:
-/// numbers that are wider than the registers of a processor go through memory where compilers copy them.
+/// One number of each of eight elements, side by side; unset until it is assigned. It has two halves, as
+/// compilers copy numbers wider than the registers of a processor through memory.
 struct alignas(8 * sizeof(double)) ElementLanes {
   using Half = double __attribute__((vector_size(4 * sizeof(double))));
   Half half[2];
@@ -34,8 +34,8 @@ struct alignas(8 * sizeof(double)) ElementLanes {
   void set_all(double number) { half[0] = half[1] = Half{} + number; }
 };
 
-/// What is computed once in up to eight elements with fixed ends, each on one part of the drawing, side by
-/// side: the only place of these numbers.
+/// The numbers of up to eight elements with fixed ends, each on one part of the drawing, computed once and
+/// kept side by side: the only place of these numbers.
 struct FixedLanes {
   static constexpr int lanes = 8, points = GaussRule::size;
 
@@ -43,11 +43,11 @@ struct FixedLanes {
   std::array<Point, points> at = {};
   ElementSums<ElementLanes> sum = {};
 
-  /// The sum of all numbers of an element in a lane of these, each times that in a lane of others.
+  /// The sum over all numbers of an element in a lane, each times the number in a lane of others.
   double product(int lane, const FixedLanes& other, int lane_of_other) const;
-  /// Takes those of one element into a lane; of the first one into all, until others take them.
+  /// Puts the numbers of one element into a lane; the first element fills all lanes until others take them.
   void put(int lane, const FixedSums& sums, const PointPack& pack);
-  /// Those in a lane.
+  /// The numbers of the element in a lane.
   FixedSums sums(int lane) const;
   PointPack pack(int lane) const;
 };

@@ -1,4 +1,4 @@
-// The forces of an element with torsion whose ends are fixed.
+// The forces of an element with torsion and fixed ends.
 #include "fem/element/twist_element.h"
 #include "fem/element/twist_inertia.h"
 #include "fem/element/twist_rows.h"
@@ -23,7 +23,7 @@ std::array<SectionStrain<double>, GaussRule::size> rates_of(
 
 }  // namespace
 
-// Elastic, and viscous ones where the element moves.
+// Elastic moments, plus viscous ones where the element is damped.
 twist::Moments TwistElement::section_moments_at(const FixedFields& at,
                                                 const twist::Viscosity* viscous) const {
   std::array<SectionStrain<double>, points> rates{};
@@ -43,7 +43,7 @@ twist::Moments TwistElement::section_moments_at(const FixedFields& at,
   return moments;
 }
 
-// What damps, where something does.
+// The viscosity of a damped element; nothing without damping.
 std::optional<twist::Viscosity> TwistElement::viscosity(const Reduced<double>& q,
                                                         const Reduced<double>& v) const {
   if (!(properties_->damping > 0)) return {};
@@ -58,7 +58,7 @@ TwistElement::Reduced<double> TwistElement::section_force(const Reduced<double>&
                                     section_moments_at(at, viscous ? &*viscous : nullptr), 0.0);
 }
 
-// With the spins of both ends and the bubble's rate w, p = M w.
+// Forces of the spin inertia: p = M w, with the spins of both ends and the bubble's rate w.
 TwistElement::Reduced<double> TwistElement::spin_force(const Reduced<double>& q, const Reduced<double>& v,
                                                        const Reduced<double>& a) const {
   const std::array<twist::NodeSpin<double>, 2> nodes{twist::NodeSpin<double>(charts_[0], 0, q, v, a),

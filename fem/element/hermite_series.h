@@ -4,7 +4,7 @@
 namespace nurbeam {
 
 /// Power series in the two end positions, truncated after total degree N; coefficients by degree: 1, a, b,
-/// aa, ab, bb, ... As Jet, of as low a degree as its use allows.
+/// aa, ab, bb, ... Like Jet, but with a degree as low as its use allows.
 template <int N>
 struct EndSeries {
   static constexpr int size = (N + 1) * (N + 2) / 2;
@@ -59,7 +59,7 @@ EndSeries<M> truncated(const EndSeries<N>& x) {
   return y;
 }
 
-/// By variable 0 or 1.
+/// The derivative by variable 0 or 1.
 template <int N>
 EndSeries<N - 1> derivative(const EndSeries<N>& x, int variable) {
   EndSeries<N - 1> y;
@@ -71,7 +71,7 @@ EndSeries<N - 1> derivative(const EndSeries<N>& x, int variable) {
   return y;
 }
 
-/// Of one variable, from the value and derivatives there.
+/// The series of a function of one variable, from its value and derivatives.
 template <int N>
 EndSeries<N> of_variable(int variable, const std::array<double, 4>& f) {
   EndSeries<N> y;
@@ -87,12 +87,13 @@ struct Hermite {
   EndSeries<N> P, Q, R, T;
 };
 
-/// 1 / l, and du/ds at the ends.
+/// Series of 1 / l, and of du/ds at the ends.
 struct MovingEnds {
   EndSeries<2> inverse_length, rate_a, rate_b;
 };
 
-/// Its derivative in s_A at fixed u, again such a cubic: P_a - Q u_A', Q_a - H''(u_A) u_A', R_a, T_a.
+/// The derivative of a Hermite cubic in s_A at fixed u, again a cubic: P_a - Q u_A', Q_a - H''(u_A) u_A',
+/// R_a, T_a.
 template <int N>
 Hermite<N - 1> by_start(const Hermite<N>& h, const MovingEnds& ends) {
   constexpr int M = N - 1;
@@ -104,7 +105,7 @@ Hermite<N - 1> by_start(const Hermite<N>& h, const MovingEnds& ends) {
           derivative(h.T, 0)};
 }
 
-/// The same in s_B.
+/// The derivative of a Hermite cubic in s_B at fixed u.
 template <int N>
 Hermite<N - 1> by_end(const Hermite<N>& h, const MovingEnds& ends) {
   constexpr int M = N - 1;

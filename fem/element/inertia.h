@@ -26,8 +26,8 @@ struct RowSeries {
   }
 };
 
-/// A vector field x(q) = sum_k row_k(s_a, s_b) e_k at one quadrature point with what the equations of motion
-/// need: its gradient in q, its rate, and the Hessian contracted with a vector.
+/// A vector field x(q) = sum_k row_k(s_a, s_b) e_k at one quadrature point, for the equations of motion: its
+/// gradient in q, its rate, and the Hessian contracted with a vector.
 template <int D>
 class PointField {
  public:
@@ -113,9 +113,9 @@ struct SecondRate {
   }
 };
 
-/// Velocity and acceleration of the material at one quadrature point that moves over it: with R = dr/dq, the
-/// velocity is v = dr/dt - r_s ds/dt = N q', N = R - r_s s_q', w(q) and s(q) the point's weight and place,
-/// both linear in the end positions.
+/// Velocity and acceleration of the material at one quadrature point that moves over it. With R = dr/dq the
+/// velocity is v = dr/dt - r_s ds/dt = N q', N = R - r_s s_q'. The point's weight w(q) and place s(q) are
+/// linear in the end positions.
 template <int D>
 class PointInertia {
  public:

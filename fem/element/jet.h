@@ -84,7 +84,7 @@ inline Jet operator/(const Jet& x, const Jet& y) {
   return x * compose({r, -r * r, 2 * r * r * r, -6 * r * r * r * r}, y);
 }
 
-/// The same names for a plain number: an element whose ends are fixed.
+/// The functions of Jet for a plain number, in an element with fixed ends.
 inline double compose(const std::array<double, 4>& f, double) { return f[0]; }
 inline double value(double x) { return x; }
 inline double value(const Jet& x) { return x.value(); }

@@ -4,8 +4,8 @@
 #include "fem/element/fixed_lanes.h"
 #include "fem/material/numbers.h"
 
-/// The arithmetic of fem/material/numbers.h of the numbers of eight elements, for sources that are compiled
-/// for every processor.
+/// The arithmetic of fem/material/numbers.h for numbers of eight elements, in sources that are compiled for
+/// every processor.
 namespace nurbeam {
 
 using Lanes8 = ElementLanes;
@@ -41,14 +41,14 @@ NURBEAM_WITHIN Lanes8 square_root(const Lanes8& a) {
   return root;
 }
 
-// 0 where they are not.
+// The numbers, or 0 where they are not positive.
 NURBEAM_WITHIN Lanes8 positive(const Lanes8& a) {
   Lanes8 part;
   for (int i = 0; i < 2; ++i) part.half[i] = a.half[i] > 0 ? a.half[i] : ElementLanes::Half{};
   return part;
 }
 
-// 1 where they are zero, else 0.
+// 1 where the numbers are zero, else 0.
 NURBEAM_WITHIN Lanes8 is_zero(const Lanes8& a) {
   Lanes8 part;
   for (int i = 0; i < 2; ++i)

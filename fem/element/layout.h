@@ -4,12 +4,12 @@
 
 namespace nurbeam {
 
-/// Where the generalised coordinates of an element stand: q = (r_A, r_sA, r_B, r_sB, s_A, s_B), Eq. 11 of
+/// Positions of the generalised coordinates of an element: q = (r_A, r_sA, r_B, r_sB, s_A, s_B), Eq. 11 of
 /// Ding & Ouyang with arc-length gradients and positions instead of r_x and x. Ends are 0 (A) and 1 (B).
 template <int D>
 struct ElementLayout {
-  static constexpr int nodal = 4 * D;                              ///< of positions and slopes together
-  static constexpr int size = nodal + 2;                           ///< all
+  static constexpr int nodal = 4 * D;                              ///< number of positions and slopes
+  static constexpr int size = nodal + 2;                           ///< number of all coordinates
   static constexpr int r(int end) { return 2 * D * end; }          ///< first of D
   static constexpr int slope(int end) { return 2 * D * end + D; }  ///< first of D
   static constexpr int place(int end) { return nodal + end; }
@@ -21,8 +21,8 @@ struct ElementLayout {
   static Nodes nodes(const Coordinates& q) { return Eigen::Map<const Nodes>(q.data()); }
 };
 
-/// Where the coordinates of an element with torsion stand: those of ElementLayout<3>, then the angles of the
-/// sections at both ends in their charts, then the bubble of twist.
+/// Positions of the coordinates of an element with torsion: first those of ElementLayout<3>, then the angles
+/// of the sections at both ends in their charts, then the bubble of twist.
 struct TwistLayout : ElementLayout<3> {
   static constexpr int first = ElementLayout<3>::size;
   static constexpr int angle(int end) { return first + end; }
@@ -46,8 +46,8 @@ using ElementNodes = typename ElementLayout<D>::Nodes;
 template <int D>
 struct ElementState {
   ElementVector<D> q, v, a;
-  double free_strain = 0;         ///< axial strain without axial force at the time (FreeStrain)
-  std::optional<bool> taut = {};  ///< as which TautViscosity is held; none: as it is
+  double free_strain = 0;         ///< free strain at the present time (FreeStrain)
+  std::optional<bool> taut = {};  ///< the side on which TautViscosity is held; none: by the strain
 
   ElementNodes<D> nodes() const { return ElementLayout<D>::nodes(q); }
   ElementNodes<D> node_rates() const { return ElementLayout<D>::nodes(v); }

@@ -20,14 +20,14 @@ double weight_at(const RationalCubic& cubic, double u) {
          cubic.weight(3) * u * u * u;
 }
 
-// l^m, l = b - a.
+// The series l^m with l = b - a.
 Jet power_of_length(double l, int m) {
   const double f = std::pow(l, m), d1 = m * f / l, d2 = (m - 1) * d1 / l / 2, d3 = (m - 2) * d2 / l / 3;
   return Jet(Jet::Coefficients{f, -d1, d1, d2, -2 * d2, d2, -d3, 3 * d3, -3 * d3, d3});
 }
 
-// The Hermite functions of x, of an element of length l, at a place that stays: at a fixed x it would go with
-// the ends, by 1 - x and x of what they do.
+// The Hermite functions of x, for an element of length l, at a place that stays. At a fixed x the place would
+// move by 1 - x and x times the moves of the ends.
 MovingRows::Series uniform_positions(double l, double x) {
   const double x2 = x * x, x3 = x2 * x, H = 3 * x2 - 2 * x3, H1 = 6 / l * (x - x2);
   const double a = x - 2 * x2 + x3, b = x3 - x2;
@@ -59,7 +59,7 @@ MovingBasis::MovingBasis(const ReferenceCurve& curve, const Chart& chart, const 
   u_a_ = a.u[0];
   length_ = b.u[0] - a.u[0];
   const EndSeries<2> l = of_variable<2>(1, b.u) - of_variable<2>(0, a.u);
-  EndSeries<2> x = (1 / length_) * l;  // 1 + x
+  EndSeries<2> x = (1 / length_) * l;  // the series is 1 + x
   x.c[0] = 0;
   EndSeries<2> inverse = x * x - x;
   inverse.c[0] += 1;
@@ -221,7 +221,7 @@ MovingRows MovingBasis::rational_rows(const Jet& s) const {
   const std::array<MovingRows::Series*, 3> series{&rows.r, &rows.rs, &rows.rss};
   for (int m = 0; m < 3; ++m) series[m]->value = still.row(m);
   rows.rsss = still.row(3);
-  std::array<Eigen::Matrix<double, 3, 4>, 2> moved;  // by the ends, at fixed s
+  std::array<Eigen::Matrix<double, 3, 4>, 2> moved;  // derivatives by the ends, at fixed s
   for (const int end : {0, 1}) {
     moved[end] = f.topRows<3>() * data_[1 + end];
     for (int m = 0; m < 3; ++m)

@@ -1,4 +1,4 @@
-// The force of an element whose ends move, by what acts on r, r_s and r_ss.
+// The force of an element with moving ends, from forces on r, r_s and r_ss.
 #include "fem/element/beam_element.h"
 #include "fem/element/moving_point.h"
 #include "fem/element/moving_sums.h"
@@ -9,7 +9,7 @@ namespace {
 
 using Row = MovingRows::Row;
 
-// Summed over the points.
+// The force summed over the points.
 template <int D>
 class ForceSum {
  public:
@@ -43,7 +43,7 @@ class ForceSum {
     Vector on_r = momentum_rate - dA * load_;
     Vector on_rs = s_rate * momentum + dA * elastic.gradient.template head<D>();
     Vector on_rss = dA * elastic.gradient.template tail<D>();
-    // What acts at a fixed material point: a place that moves leaves it behind.
+    // Forces at a fixed material point, which a moving place leaves behind.
     double pull = rs.dot(momentum_rate) + rs_rate.dot(momentum);
     const double lagrangian = m * v.squaredNorm() / 2 - elastic.energy.total() + load_.dot(r);
     if (properties_.mass_damping > 0) {
@@ -83,7 +83,7 @@ class ForceSum {
     }
   }
 
-  /// `basis`: that of the points.
+  /// `basis`: basis of the points.
   ElementVector<D> total(bool assumed, const MovingBasis& basis) {
     ElementVector<D> f = force_.vector();
     if (!assumed && !(properties_.tension_damping > 0)) return f;
@@ -122,9 +122,9 @@ class ForceSum {
   const ElementState<D>& x_;
   typename MovingPoint<D>::Motion motion_;
   Gradient<D> force_;
-  double stretch_integral_ = 0;  ///< I of AxialSums, and its gradient
+  double stretch_integral_ = 0;  ///< I of AxialSums; stretch_: its gradient
   Gradient<D> stretch_;
-  // Of damped elements: the rate of I at fixed material and its gradient in the rates of the places, and the
+  // For damped elements: the rate of I at fixed material and its gradient in the rates of the places, and the
   // force of a tension of viscosity 1.
   double stretch_rate_ = 0;
   std::array<double, 2> place_test_{};

@@ -6,16 +6,17 @@
 
 namespace nurbeam {
 
-/// The mass matrix of an element whose ends move, summed over its points: from dv/d(dq/dt), shape functions
-/// and what the places do to r at fixed material.
+/// The mass matrix of an element with moving ends, summed over its points. dv/d(dq/dt) has the shape
+/// functions, and the derivatives of r by the places at fixed material.
 template <int D>
 class MassSum {
  public:
-  /// [kg/m]; `q`: of the element.
+  /// Mass per length in [kg/m]; `q`: coordinates of the element.
   MassSum(double mass_per_length, const ElementVector<D>& q)
       : rho_(mass_per_length), nodes_(ElementLayout<D>::nodes(q)) {}
 
-  /// `r`: of a point that stays, with first derivatives; `length`: its weight in the integral [m].
+  /// Adds a point. `r`: row of a point that stays, with first derivatives; `length`: its weight in the
+  /// integral [m].
   void add(const MovingRows::Series& r, double length) {
     using Vector = Eigen::Matrix<double, D, 1>;
     const double m = rho_ * length;

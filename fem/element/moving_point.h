@@ -4,9 +4,9 @@
 
 namespace nurbeam {
 
-/// One quadrature point of an element whose ends move: the fields there as functions of q, and the strain
-/// rates at fixed material. With z = (r_s, r_ss): B = dz/dq, Z = dz/dq at fixed material point, zeta = dz/dt
-/// there.
+/// One quadrature point of an element with moving ends: the fields there as functions of q, and the strain
+/// rates at fixed material. With z = (r_s, r_ss): B = dz/dq, Z = dz/dq at the fixed material point, and zeta
+/// = dz/dt there.
 template <int D>
 struct MovingPoint {
   static constexpr int n = element_size<D>;
@@ -52,7 +52,7 @@ struct MovingPoint {
   ElementVector<D> kappa_q;
   PairGradient B;
 
-  /// What the rates at fixed material need besides: r_sss.
+  /// Additional fields for the rates at fixed material: r_sss.
   struct Rates {
     PointField<D> rsss;
     Pair z_s, zeta;

@@ -6,8 +6,8 @@
 
 namespace nurbeam {
 
-/// Of the shape functions and their derivatives along s what forces need, and with two derivatives wanted
-/// what tangents need besides; one column a shape function.
+/// Rows of the shape functions and their derivatives along s that forces need, and with two derivatives
+/// wanted also those that tangents need; one column a shape function.
 struct MovingRows {
   using Row = Eigen::Vector4d;
   struct Series {

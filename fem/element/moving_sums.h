@@ -6,14 +6,17 @@
 
 namespace nurbeam {
 
-/// A matrix in the coordinates of an element, but for what is not the same for all components of the nodes.
+/// A matrix in the coordinates of an element, without the parts that differ between components of the nodes.
 template <int D>
 struct PlaceSums {
   using Nodes = ElementNodes<D>;
   Eigen::Matrix4d isotropic = Eigen::Matrix4d::Zero();
-  std::array<Nodes, 2> by_place{Nodes::Zero(), Nodes::Zero()};  ///< forces on nodes by the places,
-  std::array<Nodes, 2> of_place{Nodes::Zero(), Nodes::Zero()};  ///< on places by the nodes,
-  Eigen::Matrix2d places = Eigen::Matrix2d::Zero();             ///< and by the places
+  /// Derivatives of forces on nodes by the places.
+  std::array<Nodes, 2> by_place{Nodes::Zero(), Nodes::Zero()};
+  /// Derivatives of forces on places by the nodes.
+  std::array<Nodes, 2> of_place{Nodes::Zero(), Nodes::Zero()};
+  /// Derivatives of forces on places by the places.
+  Eigen::Matrix2d places = Eigen::Matrix2d::Zero();
 
   ElementMatrix<D> matrix() const {
     using Layout = ElementLayout<D>;

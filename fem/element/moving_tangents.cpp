@@ -57,7 +57,7 @@ class TangentSum {
     if (properties_.is_damped()) add_damping(p);
   }
 
-  /// `basis`: that of the points.
+  /// `basis`: basis of the points.
   ElementMatrix<D> total(const MovingBasis& basis) const {
     using Layout = ElementLayout<D>;
     constexpr int nodal = Layout::nodal;
@@ -304,7 +304,7 @@ class TangentSum {
     const double k = t_.stiffness, d = t_.damping;
     if (properties_.mass_damping > 0) add_drag(rows.r, rows.rs.value, p);
     if (!(properties_.damping > 0 || properties_.tension_damping > 0)) return;
-    // The rate of r_s at fixed material, and what it varies by.
+    // The rate of r_s at fixed material, and its derivatives.
     const Vector rate = p.rs_rate - p.rss.value * p.s_rate;
     const Row rate_e = p.rs_rate_e - (k * p.s_rate) * rows.rss.value;
     Vectors rate_i;
@@ -314,7 +314,7 @@ class TangentSum {
     add_rate_of_stretch(rows, p, rate, rate_e, rate_i);
   }
 
-  // Of a force on the material velocity.
+  // Adds the tangent of a drag on the material velocity.
   void add_drag(const MovingRows::Series& rows, const Row& along, const Point& p) {
     const double k = t_.stiffness;
     const double c = properties_.mass_damping * properties_.mass_per_length, cA = c * p.A;
@@ -332,7 +332,7 @@ class TangentSum {
     }
   }
 
-  // Of the stress of strains at the point, on r_s and r_ss.
+  // Adds the tangent of viscous stress of strains at the point, on r_s and r_ss.
   void add_viscosity(const MovingRows& rows, const Point& p, const Vector& rs_rate, const Row& rs_rate_e,
                      const Vectors& rs_rate_i) {
     const auto& [e, e_rate, e_second, w, w_rate] = motion_;
@@ -386,7 +386,8 @@ class TangentSum {
     }
   }
 
-  // The rate of I at fixed material, and the force of a tension of viscosity 1, both for r_s alone.
+  // Adds to the rate of I at fixed material, and to the force of a tension of viscosity 1, both for r_s
+  // alone.
   void add_rate_of_stretch(const MovingRows& rows, const Point& p, const Vector& rate, const Row& rate_e,
                            const Vectors& rate_i) {
     const double k = t_.stiffness, A = p.A;
@@ -420,7 +421,8 @@ class TangentSum {
     }
   }
 
-  // AssumedAxialDamping: stress of (I, eps_A, eps_B) at fixed material, on their gradients in the rates, Z.
+  // Adds the tangent of AssumedAxialDamping: stresses on (I, eps_A, eps_B) at fixed material, times their
+  // gradients in the rates, Z.
   void add_axial_damping(double l, const MovingBasis& basis, ElementMatrix<D>& K) const {
     using Layout = ElementLayout<D>;
     using Rows = Eigen::Matrix<double, 3, Layout::size>;
@@ -440,7 +442,7 @@ class TangentSum {
       rate[1 + end] = slope.dot(slope_rate);
       Z.template block<1, D>(1 + end, at) = slope.transpose();
       Z(1 + end, place) = -bend.dot(slope);
-      Gradient<D> bending;  // of slope . bend in bend alone
+      Gradient<D> bending;  // gradient of slope . bend by bend alone
       bending.nodes = slope * rss.value.transpose();
       for (const int j : {0, 1}) bending.places[j] = slope.dot(e * rss.first[j]);
       auto own_rate = rate_q.row(1 + end);
@@ -470,12 +472,12 @@ class TangentSum {
   typename MovingPoint<D>::Motion motion_;
   Eigen::Matrix<double, 4 * D, 4 * D> nodal_;
   PlaceSums<D> sums_;
-  double stretch_integral_ = 0;  ///< I of AxialSums, and its gradient
+  double stretch_integral_ = 0;  ///< I of AxialSums; stretch_: its gradient
   Gradient<D> stretch_;
-  Eigen::Matrix2d stretch_places_ = Eigen::Matrix2d::Zero();  ///< its second derivatives by the places
-  // Of damped elements: the rate of I at fixed material, its gradients in the coordinates (with the rates
-  // weighted) and in the rates of the places, and the derivatives of its gradient in all rates, which in the
-  // rates of the nodes is that of I.
+  Eigen::Matrix2d stretch_places_ = Eigen::Matrix2d::Zero();  ///< second derivatives of I by the places
+  // For damped elements: the rate of I at fixed material and its gradients in the coordinates (with the rates
+  // weighted) and in the rates of the places. Further the derivatives of this gradient in all rates; in the
+  // rates of the nodes it is the gradient of I.
   double stretch_rate_ = 0;
   Gradient<D> rate_gradient_;
   std::array<double, 2> test_places_{};

@@ -1,7 +1,7 @@
 // The forces of an element with torsion whose ends move over the material.
 //
-// Its drawing is a series in both places (DrawnElement), its strains by the places and by time are
-// derivatives that dual numbers carry.
+// The drawing is a series in both places (DrawnElement). Dual numbers carry the derivatives of the strains by
+// the places and by time.
 #include <type_traits>
 
 #include "fem/element/twist_element.h"
@@ -18,13 +18,13 @@ using Vector = Eigen::Matrix<T, rows, 1>;
 
 enum Direction { by_a, by_b, by_time, directions };
 
-// Coordinates with rates, and what follows from them. D carries the derivatives by both places, with the
-// nodal values fixed, and that by time.
+// Coordinates with rates, and the fields that follow from them. D carries the derivatives by both places at
+// fixed nodal values, and the derivative by time.
 template <class T>
 class Motion {
  public:
   using D = Dual<directions, T>;
-  // Forces take first derivatives of the drawing, their tangents second ones.
+  // Forces take first derivatives of the drawing, tangents second ones.
   using Drawn =
       twist::DrawnElement<std::conditional_t<std::is_same_v<T, double>, Dual<2>, twist::PlaceSeries>>;
   using Fields = twist::AnyFields<D>;
@@ -47,7 +47,7 @@ class Motion {
   }
 
   Vector<T> force() const;
-  /// Of a point, against the drawing, and its rate at fixed material.
+  /// strain(): strain of a point against the drawing; material_rate(): its rate at fixed material.
   SectionStrain<D> strain(std::size_t g) const {
     const twist::PointField<D>& p = moving_.at[g];
     return {p.k1 - drawing_.points[g].k1, p.k2 - drawing_.points[g].k2, p.gamma};
@@ -58,7 +58,7 @@ class Motion {
   double kinetic_energy() const;
 
  private:
-  // Time's derivative beside the value.
+  // A value with its time derivative.
   using Rate = Dual<1, T>;
   static Rate in_time(const D& x) { return Rate::variable(x.value, 0, x.d[by_time]); }
   Rate coordinate(int i) const { return Rate::variable(q_[i], 0, v_[i]); }
@@ -79,7 +79,8 @@ class Motion {
   twist::AnyDrawing<D> drawing_;
   twist::AnyDrawing<T> now_;
   Fields moving_;
-  std::array<Rate, 2> spins_;  // of both ends, less what a node sees only because it moves over the drawing
+  // Of both ends, without the part that a node sees only as it moves over the drawing.
+  std::array<Rate, 2> spins_;
 };
 
 // Derivatives of the strains by s in the element.
@@ -110,8 +111,9 @@ SectionStrain<T> Motion<T>::material_rate(std::size_t g) const {
           e.twist.d[by_time] - slope.twist * slid};
 }
 
-// Elastic and viscous moments M on the strains e: M de/dq, with places those of the energy density and, as
-// damping works at fixed material, less the viscous moments' work on what a point only slides past.
+// Forces of the elastic and viscous moments M on the strains e: M de/dq, and on the places the energy
+// density. As damping works at fixed material, the work of viscous moments on strains that a point only
+// slides past is subtracted.
 template <class T>
 void Motion<T>::add_strain_forces(const T& on_twist, Vector<T>& f) const {
   const SectionStiffness& stiffness = *properties_.sections;
@@ -196,7 +198,7 @@ typename Motion<T>::SpinMomenta Motion<T>::momenta() const {
   return p;
 }
 
-// d/dt(dT/dv) - dT/dq, but for what theta_B passes on.
+// Adds d/dt(dT/dv) - dT/dq, without the part that theta_B passes on.
 template <class T>
 void Motion<T>::add_spin_forces(const SpinMomenta& p, Vector<T>& f) const {
   for (const int end : {0, 1}) {
@@ -235,7 +237,7 @@ TwistElement::Coordinates TwistElement::moving_force(const TwistState& x) const 
   return twist::spread_out<rows>(motion.force());
 }
 
-// Of the kinetic energy sum mass w^2/2, each w a row of velocities.
+// Mass matrix of the kinetic energy sum mass w^2/2, where each w is a row times the velocities.
 TwistElement::Matrix TwistElement::moving_mass(const Coordinates& q) const {
   const MaterialSpinRows rows(*this, q);
   const twist::QuadraturePlaces<double> places(*curve_, chart_, q[TwistLayout::place(0)],

@@ -1,10 +1,10 @@
-// How forces change with the numbers of elements, back from their multipliers.
+// Derivatives of forces by the numbers of elements, computed backwards from multipliers.
 #include "fem/element/batch_kernel.h"
 
 namespace nurbeam {
 
-// The sum phi of the forces of FixedKernel::force times the multipliers m of their coordinates, by each
-// number: rates go back from it, as each product is passed, to what goes into it.
+// Derivatives by each number of the sum phi of the forces of FixedKernel::force times the multipliers m of
+// their coordinates. Rates go backwards through each product, from phi to the numbers.
 template <int D>
 struct ElementBatch<D>::NumberRates {
   using Formulas = typename Kernel::Formulas;
@@ -42,7 +42,7 @@ struct ElementBatch<D>::NumberRates {
     const Pair d = combination(m, p);
     const Components<D, Lanes8> rs = Formulas::combination(e, p.S1), rss = Formulas::combination(e, p.S2);
     const CurvatureDerivatives<D, Lanes8> K(rs, rss, kernel.formulas.material);
-    const Pair slope = pair(rs, Components<D, Lanes8>{});  // of the axial strain
+    const Pair slope = pair(rs, Components<D, Lanes8>{});  // gradient of the axial strain
     Pair d_s = d;
     for (int a = D; a < 2 * D; ++a) d_s[a] = Lanes8{};
     const Lanes8 bent = dot(K.gradient, d), stretched = dot(slope, d);
@@ -83,8 +83,8 @@ struct ElementBatch<D>::NumberRates {
     add_back(by_d, m, rate);
   }
 
-  // The axial forces are stresses on y = (I, eps_A, eps_B): phi = sigma.x with sigma of the means of the law
-  // and of damping, and x the multipliers of dI/de, deps_A/de and deps_B/de.
+  // The axial forces are stresses on y = (I, eps_A, eps_B): phi = sigma.x. Here sigma comes from the means of
+  // the law and of damping, and x are the multipliers of dI/de, deps_A/de and deps_B/de.
   NURBEAM_WITHIN void add_of_axial_forces() const {
     const Formulas& of = kernel.formulas;
     if (!of.assumed) return;
@@ -93,7 +93,7 @@ struct ElementBatch<D>::NumberRates {
     const auto [I_e, I] = of.stretch(e);
     const Lanes8 x_I = Formulas::sum_of_products(I_e, m), x_A = dot(e[1], m[1]), x_B = dot(e[3], m[3]);
     const AxialMeans<Lanes8> means = axial_means<GaussRule>(beam, of.assumed_strain(e, I), of.free_strain);
-    // By I (and the mean I/l), eps_A and eps_B: of sigma.x, at fixed x.
+    // Derivatives of sigma.x by I (and the mean I/l), eps_A and eps_B, at fixed x.
     const Lanes8 by_mean = means.m00 * x_I + l * (means.m0a * x_A + means.m0b * x_B);
     Lanes8 on_I = means.by_0, by_l = means.by_a * x_A + means.by_b * x_B - I / (l * l) * by_mean;
     Lanes8 by_I_rate = {};

@@ -5,10 +5,10 @@
 namespace nurbeam {
 
 /// The section of an element with torsion at a place that may move over the material, as a function of the
-/// element's coordinates (TwistLayout) and, last, that place.
+/// element's coordinates (TwistLayout) and, last, the place.
 ///
-/// Made for given places: of the series in them that it holds, scalars with third derivatives miss those by
-/// the places alone.
+/// The object is made for given places and holds series in them. Third derivatives by the places alone are
+/// missing in scalars that carry them.
 class PlacedSection {
  public:
   static constexpr int size = TwistLayout::size + 1;
@@ -16,7 +16,7 @@ class PlacedSection {
   using Coordinates = Eigen::Matrix<T, size, 1>;
   using Charts = std::array<Eigen::Matrix3d, 2>;
 
-  /// `turn`: that of TwistElement; `x`: the coordinates for whose places it is made.
+  /// `turn`: see TwistElement; `x`: the coordinates whose places the object is made for.
   PlacedSection(const ReferenceCurve& curve, const Chart& chart, const Charts& charts, double turn,
                 const Coordinates<double>& x)
       : PlacedSection(twist::DrawnElement<twist::PlaceSeries>(curve, chart, x[TwistLayout::place(0)],
@@ -25,7 +25,7 @@ class PlacedSection {
 
   template <class T>
   SectionTriad<T> triad(const Coordinates<T>& x) const;
-  /// Forces on the coordinates of a moment on the section.
+  /// Forces on the coordinates from a moment on the section.
   template <class T>
   Coordinates<T> force(const Coordinates<T>& x, const Vector3<T>& moment) const;
 

@@ -6,16 +6,16 @@
 
 namespace nurbeam {
 
-/// Numbers of a point of an element whose ends are fixed: first and second derivatives of the shape
-/// functions, weight [m], curvature of the stress-free shape [1/m] and strain of its label.
+/// Numbers of a point of an element with fixed ends: first and second derivatives of the shape functions,
+/// weight [m], curvature of the stress-free shape [1/m] and strain of its label.
 template <class P>
 struct PointNumbers {
   std::array<P, 4> S1, S2;
   P weight, kappa0, eps0;
 };
 
-/// One number at each Gauss point of a part of an element, side by side; a last lane makes their count even,
-/// as the processor likes it.
+/// One number at each Gauss point of a part of an element, side by side; a last lane makes the count even,
+/// as suits the processor.
 using Lanes = SideBySide<GaussRule::size + GaussRule::size % 2>;
 
 /// The Gauss points of a part of an element by itself. Lanes beyond the points repeat the last one without

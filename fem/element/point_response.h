@@ -16,7 +16,7 @@ struct StrainGradient {
   Eigen::Matrix<double, 2 * D, 1> gradient;
 };
 
-/// The same with its Hessian.
+/// A strain measure with its Hessian besides.
 template <int D>
 struct StrainMeasure : StrainGradient<D> {
   Eigen::Matrix<double, 2 * D, 2 * D> hessian;
@@ -69,13 +69,13 @@ Strain<D, wanted> curvature(const Eigen::Matrix<double, D, 1>& rs, const Eigen::
   return k;
 }
 
-/// Strain energy per reference length psi(z) and its derivatives in z and kappa_0. eps_0 = 0 but for
+/// Strain energy per reference length psi(z) and its derivatives in z and kappa_0. eps_0 is 0 except with
 /// Metric::label. The axial part counts only where the beam's axial strain is pointwise (point_law.h).
 template <int D>
 struct ElasticResponse {
   EnergyDensity energy;
   Eigen::Matrix<double, 2 * D, 1> gradient;         ///< d(psi)/dz
-  Eigen::Matrix<double, 2 * D, 2 * D> hessian;      ///< d2(psi)/dz2; unset where one derivative is wanted
+  Eigen::Matrix<double, 2 * D, 2 * D> hessian;      ///< d2(psi)/dz2; unset if one derivative is wanted
   double moment;                                    ///< -d(psi)/d(kappa_0) [N m]
   Eigen::Matrix<double, 2 * D, 1> moment_gradient;  ///< d(moment)/dz
   double moment_slope;                              ///< -d(moment)/d(kappa_0) [N m^2]
@@ -130,7 +130,7 @@ DampingResponse<D> damping_response(const BeamProperties& beam, const Eigen::Mat
   d.by_z.setZero();
   d.by_rate.setZero();
   d.power = 0;
-  // `stress`: of a strain whose rate is 1, and of its rate.
+  // `unit`: stress of a strain at rate 1; `stress`: its stress at the present rate p_rate.
   const auto add = [&](const StrainMeasure<D>& p, double unit, double stress, double p_rate) {
     d.stress += stress * p.gradient;
     d.by_z += stress * p.hessian + unit * p.gradient * (p.hessian * rate).transpose();

@@ -4,8 +4,8 @@
 #include "fem/material/curvature_measure.h"
 #include "fem/material/numbers.h"
 
-/// The strains of the axis at a point by z = (r_s, r_ss), with their derivatives; numbers are of the kinds of
-/// fem/material/numbers.h.
+/// The strains of the axis at a point as functions of z = (r_s, r_ss), with their derivatives. Numbers are of
+/// the kinds of fem/material/numbers.h.
 namespace nurbeam {
 
 template <int D, class T>
@@ -15,9 +15,9 @@ template <int D, class T>
 using PairMatrix = std::array<std::array<T, 2 * D>, 2 * D>;
 
 /// Curvature in space is rounded near zero, sqrt(K^2 + curvature_rounding^2) [1/m], so that K = 0 is no
-/// singular point: with kappa_0 = 0 forces are those of EI K^2/2 exactly, and the energy differs by a
-/// constant. Damping sees none of a rate where K is far below it: it is as small as the round-off of r_ss
-/// along r_s lets it be.
+/// singular point. With kappa_0 = 0 forces are exactly those of EI K^2/2, and the energy differs by a
+/// constant. Where K is far below the rounding, damping sees no rate of it. The rounding is as small as the
+/// round-off of r_ss along r_s allows.
 inline constexpr double curvature_rounding = 1e-6;
 
 /// Green's axial strain (|r_s|^2 - 1)/2 [-]; its gradient is r_s.
@@ -61,7 +61,7 @@ struct Curvature {
   }
 };
 
-/// The same curvature with its first and second derivatives in z.
+/// The curvature with its first and second derivatives in z.
 template <int D, class T>
 struct CurvatureDerivatives {
   T value;
@@ -93,7 +93,7 @@ struct CurvatureDerivatives {
   }
 
  private:
-  // |r_s x r_ss|^2.
+  // Sets the value to |r_s x r_ss|^2, with derivatives.
   NURBEAM_WITHIN void take_square(const Components<D, T>& rs, const Components<D, T>& rss, const T& A) {
     const T G = dot(rss, rss), F = dot(rs, rss);
     value = positive(T(A * G - F * F));
@@ -113,7 +113,7 @@ struct CurvatureDerivatives {
       for (int b = 0; b < D; ++b) hessian[D + b][a] = hessian[a][D + b];
   }
 
-  // c A^-m with A = |r_s|^2, from c and its derivatives.
+  // Multiplies a number c by A^-m with A = |r_s|^2, with derivatives.
   NURBEAM_WITHIN void scale_by_stretch(const Components<D, T>& rs, double m, const T& p) {
     const T i = 1. / dot(rs, rs);
     value *= p;
@@ -131,7 +131,7 @@ struct CurvatureDerivatives {
     }
   }
 
-  // The rounded root.
+  // Takes the rounded square root, with derivatives.
   NURBEAM_WITHIN void take_root() {
     value = square_root(T(value + curvature_rounding * curvature_rounding));
     const T i = 1. / value;

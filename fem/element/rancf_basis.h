@@ -19,7 +19,7 @@ NodalCoordinates to_rancf(const RationalCubic& cubic, double l);
 /// Eq. (6) of Ding & Ouyang, the inverse of to_rancf for the same weights and l.
 RationalCubic to_bezier(const NodalCoordinates& e, const Eigen::Vector4d& weights, double l);
 
-/// How an element's field is parametrised: r = H(u) / W, H an ordinary cubic Hermite field in u.
+/// The chart of an element, r = H(u) / W, where H is an ordinary cubic Hermite field in u.
 ///
 /// segment >= 0: u is the parameter of that CAD segment, W its weight polynomial (weights follow the
 /// material), unless `constant_weights` holds the paper's four weights, which stay with the element. segment
@@ -43,10 +43,11 @@ struct ShapeFunctions {
 
 /// Shape functions of an element between the reference arc lengths s_a and s_b, evaluated at s.
 ///
-/// With h_1..h_4 the cubic Hermite functions (Eq. 10 of Ding & Ouyang with l = 1), l = u_B - u_A, and nodal
-/// values of H = W r: s_1 = (h_1 W_A + l h_2 W'_A)/W, s_2 = l h_2 J_A W_A / W, s_3 = (h_3 W_B + l h_4
-/// W'_B)/W, s_4 = l h_4 J_B W_B / W; Eq. (9) of Ding & Ouyang is the case of constant weights with l J_A r_s
-/// = l r_x.
+/// Let h_1..h_4 be the cubic Hermite functions (Eq. 10 of Ding & Ouyang with l = 1), l = u_B - u_A, and the
+/// nodal values those of H = W r. Then
+///   s_1 = (h_1 W_A + l h_2 W'_A)/W,  s_2 = l h_2 J_A W_A / W,
+///   s_3 = (h_3 W_B + l h_4 W'_B)/W,  s_4 = l h_4 J_B W_B / W;
+/// Eq. (9) of Ding & Ouyang is the case of constant weights with l J_A r_s = l r_x.
 template <class T>
 class ElementBasis {
  public:

@@ -30,7 +30,7 @@ std::array<double, 3> cross_product_derivatives(const std::array<Eigen::Vector3d
   return {norm, norm1, (c1.squaredNorm() + c.dot(c2) - norm1 * norm1) / norm};
 }
 
-// Equal weights, and control points in a line at equal distances.
+// Whether a cubic has equal weights, and control points in a line at equal distances.
 bool uniform_line(const RationalCubic& cubic) {
   constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   const Eigen::Matrix4d& p = cubic.points();
@@ -84,7 +84,7 @@ double ReferenceCurve::next_break(double s) const {
 }
 
 bool ReferenceCurve::draws_alike(const ReferenceCurve& other, int j, double s, double other_s) const {
-  constexpr double round_off = 1e-12;  // of the length
+  constexpr double round_off = 1e-12;  // part of the length
   return dimension_ == other.dimension_ && metric_ == other.metric_ && straight_ == other.straight_ &&
          j < other.segment_count() && segments_[j].points() == other.segments_[j].points() &&
          std::abs((s - breaks_[j]) - (other_s - other.breaks_[j])) <= round_off * segment_length(j);

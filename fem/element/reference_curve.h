@@ -11,7 +11,7 @@
 
 namespace nurbeam {
 
-/// What a chart needs to know of the drawn curve at one parameter u of one segment.
+/// Geometry of the drawn curve at one parameter u of one segment, as a chart needs it.
 struct ChartGeometry {
   std::array<double, 4> stretch;    ///< J0 = |r_u| and its first three u-derivatives
   std::array<double, 4> weight;     ///< W and its first three u-derivatives
@@ -19,7 +19,7 @@ struct ChartGeometry {
                                     ///< (the fourth entry is 0)
 };
 
-/// What the material coordinate s of a reference curve measures.
+/// The measure of the material coordinate s of a reference curve.
 enum class Metric {
   arc_length,  ///< of the drawn curve
   label  ///< s = s_j + L_j u inside segment j, no metric: the subdivision paper's elements, for comparison
@@ -33,10 +33,10 @@ struct CurvePoint {
 
 /// The drawn, undeformed curve as a function of reference arc length s in [0, length]; immutable.
 ///
-/// It is a chain of segments (rational cubics); segment j covers [breaks()[j], breaks()[j+1]] and has its own
-/// parameter u in [0,1]. In a planar model (dimension 2) coordinates are the plane's, and kappa_0 is signed,
-/// positive where the curve turns from the first axis to the second; in space kappa_0 >= 0. With
-/// Metric::label, "arc length" below is that label.
+/// The curve is a chain of segments (rational cubics). Segment j covers [breaks()[j], breaks()[j+1]] and has
+/// its own parameter u in [0,1]. In a planar model (dimension 2) coordinates are the plane's, and kappa_0 is
+/// signed, positive where the curve turns from the first axis to the second; in space kappa_0 >= 0. With
+/// Metric::label, "arc length" below means the label.
 ///
 /// A closed curve (a ring) goes on over its seam: s and s + length() are one place, and any s may be asked
 /// for.
@@ -44,30 +44,30 @@ class ReferenceCurve {
  public:
   /// Throws std::invalid_argument when there is no segment, the dimension is not 2 or 3, or the speed
   /// vanishes; for a `closed` curve also when it has less than two segments or no metric, or its end is not
-  /// its start to 1e-9 of its length. Segments that are the same in `like`, which may be null, are not
-  /// measured again.
+  /// its start to 1e-9 of its length. Segments equal to those of `like`, which may be null, are not measured
+  /// again.
   ReferenceCurve(std::vector<RationalCubic> segments, int dimension, Metric metric = Metric::arc_length,
                  bool closed = false, const ReferenceCurve* like = nullptr);
 
-  /// The same curve, of a beam whose stress-free shape has this length but no curvature.
+  /// The curve for a beam whose stress-free shape has this length but no curvature.
   ReferenceCurve straightened() const {
     ReferenceCurve curve = *this;
     curve.straight_ = true;
     return curve;
   }
 
-  /// The same curve, with sections. Throws std::invalid_argument where they mean nothing (DrawnSections), in
-  /// the plane and with Metric::label.
+  /// The curve with sections. Throws std::invalid_argument where they have no meaning (DrawnSections), in the
+  /// plane and with Metric::label.
   ReferenceCurve oriented(Orientation orientation) const;
   bool has_sections() const { return sections_ != nullptr; }
-  /// The section at s, of a curve that has sections; at a break as tangent().
+  /// The section at s, on a curve that has sections; at a break as tangent().
   DrawnSection section(double s, bool from_left = false) const;
-  /// The same with derivatives by s, as segment j goes on.
+  /// The section at s with derivatives by s, on the continuation of segment j.
   DrawnSectionSeries section_series(int j, double s) const;
   /// The angle by which sections turn about the tangent, against parallel transport, from s_a to s_b: the
   /// integral of their twist [rad].
   double section_turn(double s_a, double s_b) const;
-  /// Of DrawnSections [rad].
+  /// DrawnSections::holonomy of the curve [rad].
   double holonomy() const { return sections_->holonomy(); }
 
   Metric metric() const { return metric_; }
@@ -82,17 +82,17 @@ class ReferenceCurve {
   /// segment_count() + 1 reference arc lengths [m].
   const std::vector<double>& breaks() const { return breaks_; }
   double length() const { return breaks_.back(); }
-  /// On a closed curve the same place in [0, length); else s itself.
+  /// The place in [0, length) on a closed curve; else s itself.
   double wrapped(double s) const;
-  /// On a closed curve the same place within half a length of `near`; else s itself.
+  /// The place within half a length of `near` on a closed curve; else s itself.
   double unrolled(double s, double near) const {
     return closed_ ? s + length() * std::round((near - s) / length()) : s;
   }
   /// The first break between segments after s; infinity where none follows.
   double next_break(double s) const;
 
-  /// Whether segment j is the same drawing on both curves, and s and `other_s` [m] are one place of it, to
-  /// round-off: what is found there of the one holds for the other.
+  /// Whether segment j is drawn alike on both curves, and s and `other_s` [m] are one place of it, to
+  /// round-off: results there hold for both curves.
   bool draws_alike(const ReferenceCurve& other, int j, double s, double other_s) const;
 
   /// The segment that covers s; at a break the one before it when `from_left`, else the one after it.
@@ -111,12 +111,12 @@ class ReferenceCurve {
   ChartGeometry geometry(int j, double u) const;
   /// Position at s, 3 [m] (third coordinate 0 in a planar model).
   Eigen::Vector3d position(double s) const;
-  /// dr/ds at s, 3 [-], the unit tangent (its direction with Metric::label); at a break that of the segment
-  /// after it, or before it when `from_left`.
+  /// dr/ds at s, 3 [-], the unit tangent (its direction with Metric::label); at a break by the segment after
+  /// it, or before it when `from_left`.
   Eigen::Vector3d tangent(double s, bool from_left = false) const;
-  /// Place, tangent and curvature at s as segment j goes on; of a curve with its metric.
+  /// Place, tangent and curvature at s on the continuation of segment j; the curve must have a metric.
   CurvePoint point_in(int j, double s) const;
-  /// Green's strain (|dr/ds|^2 - 1)/2 of the drawing: 0 but with Metric::label.
+  /// Green's strain (|dr/ds|^2 - 1)/2 of the drawing: 0 except with Metric::label.
   double strain(double s, bool from_left = false) const;
   /// Largest curvature of the drawing, sampled [1/m].
   double largest_curvature() const;

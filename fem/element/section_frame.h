@@ -5,11 +5,9 @@
 
 #include "fem/element/dual.h"
 
-/// The kinematics of sections in space (docs/theory.md, "Torsion"), for any scalar T.
-///
-/// A section is a triad d1, d2, t, right-handed, d1 and d2 along the section's axes, t = r_s/|r_s|. Its state
-/// is one angle in a chart: a fixed triad M = (M1, M2, m), columns, from which the smallest rotation takes m
-/// to t.
+/// A section is a right-handed triad d1, d2, t, where d1 and d2 are along the section's axes and t =
+/// r_s/|r_s|. Its state is one angle in a chart: a fixed triad M = (M1, M2, m), columns, from which the
+/// smallest rotation takes m to t.
 namespace nurbeam {
 
 template <class T>
@@ -26,7 +24,7 @@ struct SectionTriad {
   }
 };
 
-/// `x`, across m, turned by the smallest rotation that takes m to t: undefined for t = -m.
+/// The vector `x`, across m, turned by the smallest rotation that takes m to t; undefined for t = -m.
 template <class T>
 Vector3<T> turned_with(const Vector3<T>& x, const Vector3<T>& m, const Vector3<T>& t) {
   return x - (m + t) * (t.dot(x) / (1.0 + m.dot(t)));
@@ -54,7 +52,7 @@ Vector3<T> spin_row(const Eigen::Matrix3d& chart, const Vector3<T>& rs) {
   return m.cross(rs) / (-(n * (n + rs.dot(m))));
 }
 
-/// Forces on (r_s, theta) of a node of a moment mu on its section: what works on its spin.
+/// Forces on (r_s, theta) of a node from a moment mu on its section, by the virtual work of mu on the spin.
 template <class T>
 Eigen::Matrix<T, 4, 1> node_force(const Eigen::Matrix3d& chart, const Vector3<T>& rs, const Vector3<T>& mu) {
   using std::sqrt;
@@ -64,8 +62,8 @@ Eigen::Matrix<T, 4, 1> node_force(const Eigen::Matrix3d& chart, const Vector3<T>
   return force;
 }
 
-/// The angle by which section b is turned about the tangent against section a, freed of the swing of the
-/// tangent: of the values 2 pi apart the one nearest to `near` [rad]. Undefined for t_b = -t_a.
+/// The angle by which section b is turned about the tangent against section a, without the swing of the
+/// tangent. Among values 2 pi apart it is the one nearest to `near` [rad]. Undefined for t_b = -t_a.
 ///
 /// S, C are bilinear in the two triads.
 template <class T>

@@ -16,7 +16,7 @@ struct RancfElement {
 
 /// The two parts of an element at u_j, Eqs. (4)-(6) of [S] with l_1 = u_j l and l_2 = (1 - u_j) l.
 ///
-/// The shape is kept, and so is r_x everywhere: r_xB of the left part is r_xA of the right one. Throws
+/// The shape is unchanged, and so is r_x everywhere: r_xB of the left part is r_xA of the right one. Throws
 /// std::invalid_argument unless 0 < u_j < 1. The matrices are as printed, but positions are taken relative to
 /// r_A (rows of positions sum to 1, rows of slopes to 0), so that slopes keep their digits far from the
 /// origin.
@@ -25,7 +25,8 @@ std::pair<RancfElement, RancfElement> split(const RancfElement& element, double 
 /// std::invalid_argument when the parameters are not increasing in (0, 1).
 std::vector<RancfElement> subdivide(const RancfElement& element, const std::vector<double>& parameters);
 
-/// The same shape with weights lambda c^i w_i over a label interval l', in place of Eq. (8) of [S]:
+/// An element of unchanged shape with weights lambda c^i w_i over a label interval l', in place of Eq. (8) of
+/// [S]:
 ///
 ///   r'(t) = r(c t / (1 - t + c t)),   r_xA' = c (l / l') r_xA,   r_xB' = (l / l') r_xB / c.
 ///
@@ -61,7 +62,7 @@ double grading_limit(double length, int parts);
 /// the range of k, unless Eq. (18) holds; more strictly, the shortest part must be longer than 1e-9 of the
 /// mean one.
 std::vector<double> graded_places(double length, int parts, double k);
-/// Parameters u_1..u_{n-1} of those places, Eq. (19) of [S]. Throws as graded_places.
+/// Parameters u_1..u_{n-1} of the graded places, Eq. (19) of [S]. Throws as graded_places.
 std::vector<double> graded_parameters(const ArcLengthMap& map, int parts, double k);
 
 }  // namespace nurbeam

@@ -6,7 +6,7 @@ namespace nurbeam::twist {
 
 namespace {
 
-// The place of an end.
+// The place of an end as a variable.
 template <class P>
 P variable(double value, int index) {
   if constexpr (std::is_same_v<P, PlaceSeries>)
@@ -17,7 +17,7 @@ P variable(double value, int index) {
     return P::variable(value, index);
 }
 
-// A function of s, by its derivatives where s is.
+// A function of s, from its derivatives at the plain value of s.
 template <class P>
 P along(const std::array<double, 3>& f, const P& s) {
   const P step = s - plain(s);
@@ -34,8 +34,8 @@ SectionTriad<P> triad_along(const DrawnSectionSeries& section, const P& s) {
   return {along(section.d1, s), along(section.d2, s), along(section.t, s)};
 }
 
-// A series in both places as one in these and a third, which it does not vary with, and by its derivatives by
-// that, series too, where it does.
+// A series in both places as a series in three: f does not vary with the third place, unless its derivatives
+// by it are given: `slope`, a series too, and `second`.
 SlidingSeries by_third(const PlaceSeries& f, const PlaceSeries& slope, double second) {
   SlidingSeries y;
   y.value.value = f.value.value;
@@ -121,7 +121,7 @@ DrawnElement<P>::DrawnElement(const ReferenceCurve& curve, const Chart& chart, d
   for (Eigen::Index j = 0; j < rates_.size(); ++j) turn_ += plain(drawing_.weights[j]) * plain(rates_[j]);
 }
 
-// But for its angle.
+// Adds a quadrature point, without its angle.
 template <class P>
 void DrawnElement<P>::add_point(std::size_t g, const DrawnSectionSeries& here) {
   const P s = places_.place(g);
@@ -149,7 +149,7 @@ AnyPoint<P> DrawnElement<P>::axis_point(const P& s, const ShapeFunctions<P>& sha
   return p;
 }
 
-// Of transport along the drawing, as the element's own nodal values have it.
+// Sets the rates of transport along the drawing, as the element's own nodal values give them.
 template <class P>
 void DrawnElement<P>::set_rates(const DrawnSectionSeries& a, const DrawnSectionSeries& b) {
   const auto position = [&](double s, const DrawnSectionSeries& section, int end) {
@@ -169,7 +169,7 @@ DrawnSectionSeries DrawnElement<P>::section(double s, bool from_left) const {
   return curve_->section_series(chart_.segment < 0 ? curve_->segment_at(s, from_left) : chart_.segment, s);
 }
 
-// At a quadrature point.
+// Row of transport to a quadrature point.
 template <class P>
 typename DrawnElement<P>::template Row<P> DrawnElement<P>::transport_to(std::size_t g) const {
   constexpr std::size_t n = GaussRule::size;
@@ -197,7 +197,7 @@ typename DrawnElement<P>::template Row<T> DrawnElement<P>::transport(const T& s)
   return row;
 }
 
-// Of the drawn section at s against A, less transport.
+// Angle of the drawn section at s against A, less transport.
 template <class P>
 template <class T>
 T DrawnElement<P>::angle(const DrawnSectionSeries& here, const T& s, const Row<T>& transport) const {

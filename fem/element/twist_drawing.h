@@ -6,11 +6,11 @@
 
 namespace nurbeam::twist {
 
-/// What varies with the places of both ends of an element: value, gradient and Hessian.
+/// A number that varies with the places of both ends of an element: value, gradient and Hessian.
 using PlaceSeries = Dual<2, Dual<2>>;
 
-/// A series at the places (a, b), whose plain values are those that it was made for: exact for scalars that
-/// carry first or second derivatives.
+/// The value of a series at the places (a, b), whose plain values are those for which the series was made.
+/// Exact for scalars that carry first or second derivatives.
 inline double at_places(const Dual<2>& f, double, double) { return f.value; }
 template <int N>
 Dual<N> at_places(const Dual<2>& f, const Dual<N>& a, const Dual<N>& b) {
@@ -32,10 +32,10 @@ Dual<N, T> at_places(const PlaceSeries& f, const Dual<N, T>& a, const Dual<N, T>
   return y;
 }
 
-/// What varies with these places and that of a point in between: value, gradient and Hessian.
+/// A number that varies with the places of both ends and of a point in between: value, gradient and Hessian.
 using SlidingSeries = Dual<3, Dual<3>>;
 
-/// A point that moves over the material: what its section needs of Point.
+/// A point that moves over the material: the members of Point that its section needs.
 struct SlidingPoint {
   SlidingSeries xi;
   Vector3<SlidingSeries> S1;
@@ -51,19 +51,19 @@ using AnyFields = Fields<P, Eigen::Dynamic>;
 /// A drawn element whose ends may move, of one or more parts.
 template <class P>
 struct AnyDrawing : Drawing<P, Eigen::Dynamic> {
-  /// What rates at fixed material need besides at a quadrature point.
+  /// Additional numbers of a quadrature point for rates at fixed material.
   struct Slide {
-    P s;            ///< its place [m]
-    Vector3<P> S3;  ///< of r_sss
-    P twist;        ///< of the drawing [rad/m]
+    P s;            ///< place of the point [m]
+    Vector3<P> S3;  ///< shape functions of r_sss
+    P twist;        ///< twist of the drawing [rad/m]
     P k1_s, k2_s;   ///< derivatives of the drawn curvatures by s [1/m^2]
   };
   std::vector<Slide> slides;
-  std::array<P, 2> end_twist;  ///< of the drawing, at both ends [rad/m]
+  std::array<P, 2> end_twist;  ///< twist of the drawing at both ends [rad/m]
 };
 
-/// Where an element between two places, which may move, has its quadrature points: those of
-/// BeamElement::for_each_point, parts between breaks of the drawing having their own.
+/// Quadrature points of an element between two places, which may move: those of BeamElement::for_each_point.
+/// Parts between breaks of the drawing have their own points.
 template <class P>
 struct QuadraturePlaces {
   struct Part {
@@ -83,8 +83,8 @@ struct QuadraturePlaces {
   const Part& part(std::size_t g) const { return parts[g / GaussRule::size]; }
 };
 
-/// What the drawing says of an element between two places, as series P in both: double, of values alone,
-/// Dual<2>, of these and gradients, or PlaceSeries. Transport goes on from part to part.
+/// The drawing of an element between two places, as series P in both: double has values alone, Dual<2> also
+/// gradients, PlaceSeries also Hessians. Transport goes on from part to part.
 template <class P>
 class DrawnElement {
  public:
@@ -93,11 +93,11 @@ class DrawnElement {
   const AnyDrawing<P>& drawing() const { return drawing_; }
   /// Theta_0 at B [rad].
   double turn() const { return turn_; }
-  /// Of transport in the drawing, at quadrature point j [1/m].
+  /// Rate of transport in the drawing at quadrature point j [1/m].
   double rate(int j) const { return plain(rates_[j]); }
-  /// At the material point s, in between.
+  /// The drawn point at material point s between the ends.
   AnyPoint<P> point(double s) const;
-  /// At a place s in between that may move.
+  /// The drawn point at a place s between the ends that may move.
   SlidingPoint sliding_point(double s) const requires std::is_same_v<P, PlaceSeries>;
 
  private:
@@ -120,7 +120,7 @@ class DrawnElement {
   double s_a_, s_b_;
   QuadraturePlaces<P> places_;
   SectionTriad<P> a_;
-  Row<P> rates_;  // of transport in the drawing, at the points
+  Row<P> rates_;  // rates of transport in the drawing, at the points
   AnyDrawing<P> drawing_;
   double turn_;
 };
@@ -131,7 +131,7 @@ extern template AnyPoint<double> DrawnElement<double>::point(double) const;
 extern template DrawnElement<Dual<2>>::DrawnElement(const ReferenceCurve&, const Chart&, double, double);
 extern template class DrawnElement<PlaceSeries>;
 
-/// The point and the drawing at the places (a, b); with Dual<2> for scalars of first derivatives alone.
+/// The point or the drawing at the places (a, b); with Dual<2> for scalars of first derivatives alone.
 template <class P, class T>
 AnyPoint<T> at_places(const AnyPoint<P>& p, const T& a, const T& b) {
   AnyPoint<T> y;

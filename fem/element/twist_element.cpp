@@ -12,8 +12,9 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double smallest_cosine = -0.5;  ///< of a tangent with its chart's, and with the one at A
-constexpr double largest_turn = 3;        ///< of the turn from its reference [rad]
+/// Cosine of the angle of a tangent with its chart's, and with the tangent at A.
+constexpr double smallest_cosine = -0.5;
+constexpr double largest_turn = 3;  ///< difference of the turn from its reference [rad]
 
 SectionTriad<double> triad(const DrawnSection& section) { return {section.d1, section.d2, section.t}; }
 
@@ -63,7 +64,7 @@ TwistElement::TwistElement(const ReferenceCurve& curve, const BeamProperties& pr
   if (fixed()) set_fixed(drawn);
 }
 
-// An element whose ends are fixed is of one part.
+// Sets the drawing of an element with fixed ends, which has one part.
 void TwistElement::set_fixed(const twist::DrawnElement<Dual<2>>& drawn) {
   if (drawn.drawing().points.size() != points)
     throw std::invalid_argument("an element with torsion whose ends are fixed spans no break of the drawing");
@@ -81,7 +82,7 @@ void TwistElement::set_fixed(const twist::DrawnElement<Dual<2>>& drawn) {
   }
 }
 
-// What is found of the drawing depends on neither.
+// The element in other charts with another turn; its numbers of the drawing depend on neither.
 TwistElement TwistElement::in_charts(const std::array<SectionChart, 2>& charts, double turn) const {
   TwistElement element = *this;
   element.charts_ = charts;
@@ -93,7 +94,7 @@ TwistElement::FixedPoint TwistElement::fixed_point(const twist::AnyPoint<double>
   return {p.xi, p.S1, p.S2, p.transport, p.angle, p.k1, p.k2};
 }
 
-// DrawnElement::point where no place varies, which loads ask for at every evaluation.
+// DrawnElement::point where no place varies, as loads ask for it at every evaluation.
 TwistElement::FixedPoint TwistElement::fixed_point(double s) const {
   const ShapeFunctions<double> shape = ElementBasis<double>(*curve_, chart_, s_a_, s_b_).at(s);
   const DrawnSection at_a = curve_->section(s_a_), here = curve_->section(s, s > (s_a_ + s_b_) / 2);
@@ -145,7 +146,8 @@ double TwistElement::turn(const Coordinates& q) const {
   return SectionTurn<double>(end_section(q, 0), end_section(q, 1), turn_).angle;
 }
 
-// Whether the tangents are within that cosine of their charts', and the turn that near to its reference.
+// Whether the tangents are within this cosine of their charts', and the turn is within reach of its
+// reference.
 bool TwistElement::near_charts(const Coordinates& q, double cosine, double turn_reach) const {
   for (const int end : {0, 1})
     if (!(end_section(q, end).t.dot(charts_[end].col(2)) > cosine)) return false;

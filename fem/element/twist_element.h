@@ -15,7 +15,7 @@
 
 namespace nurbeam {
 
-/// Coordinates and their rates.
+/// Coordinates of an element with torsion, and their rates.
 struct TwistState {
   TwistLayout::Coordinates q, v, a;
 };
@@ -29,16 +29,16 @@ struct TwistEnergy {
            const BeamProperties& properties);
 };
 
-/// A moment on a section [N m]: fixed in space, or with `follower` of fixed components along the section's
-/// axes, which are its own where it is drawn. With an arm y1 d1 + y2 d2 [m] it is that of a force `value`
-/// [N], fixed in space, at its end.
+/// A moment on a section [N m], fixed in space. With `follower` its components along the section's axes
+/// stay those that `value` has along the drawn axes. With an arm y1 d1 + y2 d2 [m] it is the moment of a
+/// force `value` [N], fixed in space, at the end of the arm.
 struct SectionMoment {
   Eigen::Vector3d value;
   bool follower = false;
   std::optional<Eigen::Vector2d> arm = {};
 };
 
-/// A section in motion, and what it carries.
+/// A section in motion, with its strain and moments.
 struct SectionPoint {
   SectionTriad<double> triad;
   SectionStrain<double> strain;    ///< against the drawing [1/m]
@@ -46,12 +46,12 @@ struct SectionPoint {
 };
 
 /// The sections of one element: bending about their own axes and torsion, with the inertia of the spin about
-/// the tangent. What it adds to a BeamElement<3> whose axis alone does not bend. Where its ends move over the
-/// material it has form V of docs/theory.md, as that has.
+/// the tangent. Their forces add to those of a BeamElement<3> whose axis alone does not bend. With moving
+/// ends both have form V of docs/theory.md.
 ///
 /// Inside the element the section is carried from end A by parallel transport, turned by the drawn twist and
 /// by the twist since the drawing, theta(xi) = theta_B xi + beta 4 xi (1 - xi), xi = (s - s_A)/h. So the
-/// strain of twist is theta'/h, relative directions alone count, and the drawn shape is free of stress to
+/// strain of twist is theta'/h, only relative directions count, and the drawn shape is free of stress to
 /// round-off (docs/theory.md, "Torsion").
 class TwistElement {
  public:
@@ -60,18 +60,20 @@ class TwistElement {
   /// A chart of a node: fixed axes M1, M2, m, columns.
   using SectionChart = Eigen::Matrix3d;
 
-  /// `curve`, with sections, and `properties`, with theirs, must outlive the element. `s_a`, `s_b`: of fixed
-  /// ends; of moving ones at first. `charts`: of both ends, in any present orientation; `turn`: of the
-  /// section at B against that at A, which says which of the angles 2 pi apart is meant [rad], else as drawn.
-  /// Throws std::invalid_argument without sections, for a stiffness that is not positive definite and a
+  /// `curve`, with sections, and `properties`, with theirs, must outlive the element. `s_a`, `s_b`: places of
+  /// the ends; for moving ends the first ones. `charts`: of both ends, in any present orientation. `turn`: an
+  /// approximate turn of the section at B against that at A, to choose between angles 2 pi apart [rad];
+  /// default: as drawn.
+  ///
+  /// Throws std::invalid_argument without sections, for a stiffness that is not positive definite and for a
   /// spatial measure of curvature.
   TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart, double s_a,
                double s_b, Ends ends, const std::array<SectionChart, 2>& charts, std::optional<double> turn);
-  /// In the charts of the drawing.
+  /// An element in the charts of the drawing.
   TwistElement(const ReferenceCurve& curve, const BeamProperties& properties, const Chart& chart, double s_a,
                double s_b, Ends ends = Ends::fixed);
 
-  /// The same element in other charts, with that turn. Precondition: fixed().
+  /// This element in other charts, with another turn. Precondition: fixed().
   TwistElement in_charts(const std::array<SectionChart, 2>& charts, double turn) const;
 
   const SectionChart& chart(int end) const { return charts_[end]; }
@@ -80,21 +82,21 @@ class TwistElement {
 
   /// d/dt(dT/dv) - dT/dq + dU/dq + damping of the sections; zero in the rows of fixed places.
   Coordinates force(const TwistState& x) const;
-  /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of that force F.
+  /// w.mass dF/da + w.damping dF/dv + w.stiffness dF/dq of the force F.
   Matrix tangent(const TwistState& x, const TangentWeights& w) const;
   TwistEnergy energy(const TwistState& x) const;
 
-  /// Whether a step may end here: no tangent near the opposite of its chart's or of the tangent at A, and no
-  /// turn near the one that its reference does not tell from the next.
+  /// Whether a step may end in this state: no tangent is near the opposite of its chart's tangent or of the
+  /// tangent at A, and the turn can still be told from the next one by its reference.
   bool admissible(const Coordinates& q) const;
-  /// Whether the charts should be exchanged for those of the present sections before long.
+  /// Whether the charts should soon be replaced by those of the present sections.
   bool should_recentre(const Coordinates& q) const;
-  /// The section of an end.
+  /// The section at an end.
   SectionTriad<double> end_section(const Coordinates& q, int end) const;
-  /// The moment [N m] that forces conjugate to r_s and the angle of an end are.
+  /// The moment [N m] that corresponds to forces conjugate to r_s and the angle of an end.
   Eigen::Vector3d end_moment(const Coordinates& q, int end, const Eigen::Vector3d& on_slope,
                              double on_angle) const;
-  /// The turn of the section at B against that at A [rad].
+  /// The turn of the section at B against the section at A [rad].
   double turn(const Coordinates& q) const;
   /// Spin of the section at an end about its tangent [rad/s].
   double spin(const TwistState& x, int end) const;
@@ -103,11 +105,11 @@ class TwistElement {
   SectionPoint section(const Coordinates& q, double s) const;
   /// The strain of twist at both ends, between which it is linear [rad/m].
   std::array<double, 2> twist_strain(const Coordinates& q) const;
-  /// The turn of the section at material point s against that at A [rad].
+  /// The turn of the section at material point s against the section at A [rad].
   double turn_to(const Coordinates& q, double s) const;
   /// Spin of the material section at s about its tangent [rad/s].
   double material_spin(const TwistState& x, double s) const;
-  /// Its derivatives in the velocities, at places of one shape.
+  /// Rows of derivatives of the material spin in the velocities, at places of one shape.
   class MaterialSpinRows {
    public:
     MaterialSpinRows(const TwistElement& element, const Coordinates& q);
@@ -115,8 +117,9 @@ class TwistElement {
 
    private:
     double s_a_, h_;
-    std::array<Coordinates, 2> ends_;  // of the nodes, less what they turn by as they move over the drawing
-    std::array<double, 2> strain_ = {0, 0};  // of twist, at ends that move
+    // Rows of the nodes' spins, without their turns as they move over the drawing.
+    std::array<Coordinates, 2> ends_;
+    std::array<double, 2> strain_ = {0, 0};  // strain of twist at moving ends
   };
   /// A vector that turns with the section at s from where it is drawn, and its derivative in q.
   struct TurnedWithSection {
@@ -124,11 +127,12 @@ class TwistElement {
     Eigen::Matrix<double, 3, TwistLayout::size> gradient;
   };
   TurnedWithSection turned(const Coordinates& q, double s, const Eigen::Vector3d& drawn) const;
-  /// The section at the place x.tail(1), for the coordinates before that.
+  /// The section at the place x.tail(1), for the coordinates before it.
   PlacedSection placed(const PlacedSection::Coordinates<double>& x) const {
     return {*curve_, chart_, charts_, turn_, x};
   }
-  /// Generalised force of a moment on the section at s, and its derivative in q.
+  /// moment_force(): generalised force of a moment on the section at s; moment_gradient(): its derivative in
+  /// q.
   Coordinates moment_force(const Coordinates& q, double s, const SectionMoment& moment) const;
   Matrix moment_gradient(const Coordinates& q, double s, const SectionMoment& moment) const;
   /// Generalised force of a unit torque about the present tangent along the element [N m/m], and its
@@ -138,17 +142,17 @@ class TwistElement {
 
  private:
   static constexpr int points = GaussRule::size;
-  // Rows of the coordinates that count: of fixed ends, and with the places.
+  // Number of the coordinates that count: with fixed ends, and with the places.
   static constexpr int fixed_rows = twist::reduced, moving_rows = twist::reduced + 2;
   template <class T>
   using Reduced = twist::Reduced<T>;
   using FixedPoint = twist::Point<double, points>;
   using FixedFields = twist::Fields<double, points>;
 
-  // The section at a place for coordinates of which n count, n = fixed_rows or moving_rows.
+  // The section at a place, for n coordinates that count, n = fixed_rows or moving_rows.
   template <class T>
   struct At {
-    SectionTriad<T> a;  // at the start
+    SectionTriad<T> a;  // at the start of the element
     twist::PointField<T> point;
     SectionStrain<T> strain;  // against the drawing
   };
@@ -194,12 +198,11 @@ class TwistElement {
   const BeamProperties* properties_;
   Chart chart_;
   Ends ends_;
-  double s_a_, s_b_;  // when it was made
+  double s_a_, s_b_;  // places when the element was made
   std::array<SectionChart, 2> charts_;
-  double turn_;                             // Theta_ref
-  twist::Drawing<double, points> drawing_;  // fixed ends only
-  Eigen::Matrix<double, points, 1>
-      drawn_rates_;            // fixed ends only: of transport in the drawing, at the points
+  double turn_;                                   // Theta_ref
+  twist::Drawing<double, points> drawing_;        // fixed ends only
+  Eigen::Matrix<double, points, 1> drawn_rates_;  // fixed ends only: rates of transport in the drawing
   Eigen::Matrix3d spin_mass_;  // fixed ends only: on the spins of both ends and the bubble's rate
 };
 

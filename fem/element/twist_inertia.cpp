@@ -6,7 +6,7 @@ namespace nurbeam::twist {
 
 namespace {
 
-// (r_s, angle) of an end.
+// The coordinates (r_s, angle) of an end.
 Eigen::Vector4d node_part(const Reduced<double>& x, int end) {
   const int i = slope_of(end);
   return {x[i], x[i + 1], x[i + 2], x[angle_of(end)]};
@@ -17,7 +17,7 @@ struct VaryingSpin {
   double rate, second;
   Eigen::Vector3d c, turn;
   Eigen::Vector3d rate_rs, second_rs,
-      second_v;  // by r_s and r_s'; by the angles' rates they are 1, and c by r_s''
+      second_v;  // derivatives by r_s and r_s'; by the angles' rates they are 1, and by r_s'' they are c
   Eigen::Matrix3d c_rs, turn_rs, turn_v;
 
   VaryingSpin(const Eigen::Matrix3d& chart, const Eigen::Vector4d& q, const Eigen::Vector4d& velocity,

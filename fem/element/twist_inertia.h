@@ -5,8 +5,8 @@
 /// The inertia of the spin of sections about their tangents.
 namespace nurbeam::twist {
 
-/// The spin w = theta' + c . r_s' of the node at an end, and its rate; turn = (dt/dt x t)/|r_s|. A momentum p
-/// of the spin is the forces p' on the angle and c p' + p turn on the slope.
+/// The spin w = theta' + c . r_s' of the node at an end, and its rate; turn = (dt/dt x t)/|r_s|. For a
+/// momentum p of the spin the forces are p' on the angle and c p' + p turn on the slope.
 template <class T>
 struct NodeSpin {
   Vector3<T> c, turn;
@@ -37,7 +37,7 @@ struct NodeSpin {
   }
 };
 
-/// The tangent of the inertia of fixed ends, with `mass` on both spins and the bubble's rate.
+/// The tangent of the inertia with fixed ends; `mass`: for the spins of both ends and the bubble's rate.
 Eigen::Matrix<double, reduced, reduced> spin_tangent(const std::array<Eigen::Matrix3d, 2>& charts,
                                                      const Eigen::Matrix3d& mass, const Reduced<double>& q,
                                                      const Reduced<double>& v, const Reduced<double>& a,

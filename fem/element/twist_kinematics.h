@@ -7,12 +7,12 @@
 #include "fem/element/section_frame.h"
 #include "fem/material/section_moments.h"
 
-/// What TwistElement is made of inside (docs/theory.md, "Torsion"), for any scalar: P is that of the places
-/// of the element's ends, double where they are fixed, and T that of the coordinates; N is the number of
-/// quadrature points, or Eigen::Dynamic.
+/// Internal kinematics of TwistElement (docs/theory.md, "Torsion"), for any scalar. P is the scalar of the
+/// places of the element's ends, double where they are fixed, and T the scalar of the coordinates. N is the
+/// number of quadrature points, or Eigen::Dynamic.
 namespace nurbeam::twist {
 
-/// Where the coordinates that count stand: r_B - r_A, r_sA, r_sB, both angles and the bubble; then both
+/// Positions of the coordinates that count: r_B - r_A, r_sA, r_sB, both angles and the bubble; then both
 /// places where they move.
 enum Row { chord = 0, slope_a = 3, slope_b = 6, angle_a = 9, angle_b = 10, bubble = 11, place_a = 12 };
 inline constexpr int reduced = 12;  ///< rows without the places
@@ -36,7 +36,7 @@ template <class P>
 P integrated_lagrange(int j, const P& xi) {
   constexpr auto& x = GaussRule::points;
   P integral = 0.0;
-  for (int k = 0; k < GaussRule::size; ++k) {  // exact: it is of degree 4
+  for (int k = 0; k < GaussRule::size; ++k) {  // exact for this integrand of degree 4
     P L = GaussRule::weights[k] * xi;
     for (int i = 0; i < GaussRule::size; ++i)
       if (i != j) L = L * (xi * x[k] - x[i]) / (x[j] - x[i]);
@@ -45,17 +45,18 @@ P integrated_lagrange(int j, const P& xi) {
   return integral;
 }
 
-/// A material point: shape functions, and what the drawing says there.
+/// A material point: its shape functions, and the drawing there.
 template <class P, int N>
 struct Point {
-  P xi;                              ///< (s - s_A)/h
-  Vector3<P> S1, S2;                 ///< of r_s and r_ss, on r_B - r_A, r_sA, r_sB
-  Eigen::Matrix<P, N, 1> transport;  ///< Omega there is this times the rates at the quadrature points [m]
-  P angle;                           ///< of the drawn section against A, less that Omega [rad]
-  P k1, k2;                          ///< of the stress-free shape [1/m]
+  P xi;               ///< (s - s_A)/h
+  Vector3<P> S1, S2;  ///< of r_s and r_ss, on r_B - r_A, r_sA, r_sB
+  /// Omega at the point is this times the rates at the quadrature points [m]
+  Eigen::Matrix<P, N, 1> transport;
+  P angle;   ///< angle of the drawn section against A, less Omega [rad]
+  P k1, k2;  ///< curvatures of the stress-free shape [1/m]
 };
 
-/// N of them, or as many as there are.
+/// N values, or any number of them.
 template <class T, int N>
 using Several =
     std::conditional_t<N == Eigen::Dynamic, std::vector<T>, std::array<T, N == Eigen::Dynamic ? 0 : N>>;
@@ -69,13 +70,13 @@ struct Drawing {
   P end_angle;                     ///< Theta_0 - Omega_0 at B
 };
 
-/// The axis at a point, and its section in the directions of the one at A.
+/// The axis at a point, and its section by directions at A.
 template <class T>
 struct PointField {
   Vector3<T> rs, rss, K, t;
   T a, n, f;        ///< |r_s|^2, |r_s|, rate of transport
-  T alpha;          ///< against the smallest rotation from A
-  T cosine, sine;   ///< of alpha
+  T alpha;          ///< angle of the section against the smallest rotation from A
+  T cosine, sine;   ///< cosine and sine of alpha
   T k1, k2, gamma;  ///< curvatures about the section's axes; strain of twist
 };
 
@@ -84,7 +85,7 @@ template <class T, int N>
 struct Fields {
   Reduced<T> x;
   SectionTriad<T> a, b;
-  Eigen::Matrix<T, N, 1> rates;  ///< of transport
+  Eigen::Matrix<T, N, 1> rates;  ///< rates of transport
   T turn, twist;                 ///< Theta and theta_B
   Several<PointField<T>, N> at;
 };
@@ -107,7 +108,7 @@ PointField<T> axis_at(const Point<P, N>& p, const Reduced<T>& x, const Vector3<T
   return at;
 }
 
-/// Angle and strains at a point whose axis is known, of an element of length h.
+/// Sets angle and strains at a point whose axis is known, in an element of length h.
 template <class T, class P, int N>
 void set_strain(const Point<P, N>& p, const P& h, const Fields<T, N>& fields, PointField<T>& at) {
   using std::cos, std::sin;
@@ -123,7 +124,7 @@ void set_strain(const Point<P, N>& p, const P& h, const Fields<T, N>& fields, Po
   at.gamma = (fields.twist + beta * bubble_slope(p.xi)) / h;
 }
 
-/// `near`: the turn that says which of those 2 pi apart is meant [rad].
+/// The fields of an element. `near`: an approximate turn, to choose between angles 2 pi apart [rad].
 template <class T, class P, int N>
 Fields<T, N> fields_of(const Drawing<P, N>& drawing, const std::array<Eigen::Matrix3d, 2>& charts,
                        double near, const Reduced<T>& x) {
@@ -153,7 +154,7 @@ SectionTriad<T> section_at(const Fields<T, N>& fields, const PointField<T>& at) 
   return carried_section<T>(fields.a, at.t, at.alpha);
 }
 
-/// The turn of section b against a varies by this times the spin of b less that of a.
+/// The gradient of the turn of section b against a: it varies by this times the spin of b less that of a.
 template <class T>
 Vector3<T> turn_gradient(const Vector3<T>& t_a, const Vector3<T>& t_b) {
   return (t_a + t_b) / (1.0 + t_a.dot(t_b));
@@ -187,7 +188,8 @@ Reduced<T> gradient_of(const Drawing<P, N>& drawing, const std::array<Eigen::Mat
     twist_force += Q[g] * xi + Mt * w_by_h;
     force[bubble] += Q[g] * bubble_shape(xi) + Mt * P(w_by_h * bubble_slope(xi));
   }
-  Vector3<T> on_d1 = Vector3<T>::Zero(), on_d2 = Vector3<T>::Zero(), on_t = Vector3<T>::Zero();  // of A
+  // Moments on the triad of A.
+  Vector3<T> on_d1 = Vector3<T>::Zero(), on_d2 = Vector3<T>::Zero(), on_t = Vector3<T>::Zero();
   for (std::size_t j = 0; j < n; ++j) {
     const PointField<T>& p = fields.at[j];
     T y = -(twist_force * drawing.weights[j]);
@@ -219,7 +221,7 @@ Eigen::Matrix<Dual<N, T>, N, 1> variables(const Eigen::Matrix<T, N, 1>& x, doubl
   return y;
 }
 
-/// x + v dt.
+/// The vector x + v dt, with the derivative by time.
 template <class T, int N>
 Eigen::Matrix<Dual<1, T>, N, 1> moving(const Eigen::Matrix<T, N, 1>& x, const Eigen::Matrix<T, N, 1>& v) {
   Eigen::Matrix<Dual<1, T>, N, 1> y;
@@ -227,7 +229,7 @@ Eigen::Matrix<Dual<1, T>, N, 1> moving(const Eigen::Matrix<T, N, 1>& x, const Ei
   return y;
 }
 
-/// The derivatives that a vector carries.
+/// The derivatives that a vector of dual numbers carries.
 template <int N>
 Eigen::Matrix<double, N, N> derivatives(const Eigen::Matrix<Dual<N>, N, 1>& x) {
   Eigen::Matrix<double, N, N> gradient;

@@ -3,7 +3,7 @@
 
 #include "fem/element/twist_element.h"
 
-/// From the coordinates of an element with torsion to the n of them that count (twist::Row), and back.
+/// Maps between the coordinates of an element with torsion and the n coordinates that count (twist::Row).
 namespace nurbeam::twist {
 
 template <int n>
@@ -15,7 +15,7 @@ Eigen::Matrix<double, n, 1> reduced_of(const TwistLayout::Coordinates& q) {
   return x;
 }
 
-/// The row of the element's coordinates that each reduced row is; that of the chord is less that of r_A, too.
+/// The row of the element's coordinates for each reduced row; from the chord's row that of r_A is subtracted.
 inline constexpr std::array<int, reduced + 2> element_row = [] {
   using Layout = TwistLayout;
   std::array<int, reduced + 2> rows{};

@@ -55,8 +55,8 @@ std::array<double, 2> TwistElement::twist_strain(const Coordinates& q) const {
   return {at(0), at(1)};
 }
 
-// With xi = (s - s_A)/h the section there moves over the material with s' = (1 - xi) s_A' + xi s_B': what it
-// turns by on the way is taken out of its spin, at the nodes the drawn part of it.
+// Rows of the material spin. The section at xi = (s - s_A)/h moves over the material with s' = (1 - xi) s_A'
+// + xi s_B'. The turn by this motion is subtracted from its spin; at the nodes the drawn twist is.
 TwistElement::MaterialSpinRows::MaterialSpinRows(const TwistElement& element, const Coordinates& q)
     : s_a_(q[TwistLayout::place(0)]), h_(q[TwistLayout::place(1)] - s_a_) {
   for (const int end : {0, 1}) {
@@ -85,8 +85,9 @@ double TwistElement::material_spin(const TwistState& x, double s) const {
   return MaterialSpinRows(*this, x.q).at(s).dot(x.v);
 }
 
-// The section's spin is (r_s x dr_s)/|r_s|^2 + t dw, dw = d(alpha) + [(t_A x dt_A + t_A dw_A) . (t_A + t)
-// - t_A . (t x dt)]/(1 + t . t_A): its rows are taken by dual numbers.
+// Forces of a moment: the section's spin is (r_s x dr_s)/|r_s|^2 + t dw with
+//   dw = d(alpha) + [(t_A x dt_A + t_A dw_A) . (t_A + t) - t_A . (t x dt)]/(1 + t . t_A),
+// and dual numbers take the derivatives.
 template <class T, int n>
 Eigen::Matrix<T, n, 1> TwistElement::moment_on(const Eigen::Matrix<T, n, 1>& q, double s,
                                                const SectionMoment& of) const {
@@ -119,7 +120,7 @@ Eigen::Matrix<T, n, 1> TwistElement::moment_on(const Eigen::Matrix<T, n, 1>& q, 
   return force;
 }
 
-// Along the axes of the drawn section at s.
+// The components of a vector along the axes of the drawn section at s.
 Eigen::Vector3d TwistElement::drawn_components(double s, const Eigen::Vector3d& vector) const {
   const DrawnSection drawn = curve_->section(s, s > (s_a_ + s_b_) / 2);
   return {drawn.d1.dot(vector), drawn.d2.dot(vector), drawn.t.dot(vector)};
@@ -163,7 +164,7 @@ TwistElement::Coordinates TwistElement::moment_force(const Coordinates& q, doubl
 TwistElement::Matrix TwistElement::moment_gradient(const Coordinates& q, double s,
                                                    const SectionMoment& moment) const {
   const SectionMoment along = along_axes(s, moment);
-  // Column by column: duals of many variables of many variables take long.
+  // Column by column, as dual numbers with many variables of dual numbers take long.
   const auto gradient = [&]<int n>(const Eigen::Matrix<double, n, 1>& x) {
     Eigen::Matrix<double, n, n> K;
     for (int j = 0; j < n; ++j) {

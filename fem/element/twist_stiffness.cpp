@@ -14,7 +14,7 @@ using Gradients = Eigen::Matrix<T, reduced, 3>;  // of three scalars, columns
 template <class T>
 using Matrix3 = Eigen::Matrix<T, 3, 3>;
 using Square = Eigen::Matrix<double, reduced, reduced>;
-// Of several points, columns.
+// Matrices of several points, side by side in columns.
 template <int n>
 using Stack = Eigen::Matrix<double, reduced, n * points>;
 
@@ -26,7 +26,7 @@ Matrix3<T> crossing(const Vector3<T>& x) {
   return y;
 }
 
-// The columns of A, each times x.
+// Each column of A times x.
 template <class T>
 Matrix3<T> crossed(const Matrix3<T>& A, const Vector3<T>& x) {
   Matrix3<T> y;
@@ -34,9 +34,9 @@ Matrix3<T> crossed(const Matrix3<T>& A, const Vector3<T>& x) {
   return y;
 }
 
-// First derivatives by x: those of theta_B; at each point of t and K in r_s, of the curvatures P1, P2 along
-// the axes of the section at A and of the rate of transport f, of alpha and of the strains. The spins of both
-// ends are those of their (r_s, angle).
+// First derivatives by x of theta_B; and at each point: of t and K in r_s, of the curvatures P1, P2 along the
+// axes of the section at A, of the rate of transport f, of alpha and of the strains. The spins of both ends
+// are derivatives by their (r_s, angle).
 template <class T>
 struct FirstDerivatives {
   std::array<Eigen::Matrix<T, 4, 3>, 2> spins;
@@ -111,9 +111,9 @@ Eigen::Matrix3d law(const SectionStiffness& section) {
   return C;
 }
 
-// The derivative by x of gradient_of the moments M of a potential, of strains e with dM/de = C: in the steps
-// of gradient_of, second derivatives of the strains in P1, P2, f, the turn and the bubble; those of P1, P2, f
-// in r_s and r_ss as seen from the section at A; and what its spin adds.
+// The derivative by x of gradient_of, for moments M of a potential of strains e with dM/de = C. It follows
+// the steps of gradient_of: second derivatives of the strains in P1, P2, f, the turn and the bubble; those of
+// P1, P2, f in r_s and r_ss as seen from the section at A; and the terms of the spin at A.
 class Stiffness {
  public:
   Stiffness(const Drawing<double, points>& drawing, const std::array<Eigen::Matrix3d, 2>& charts,
@@ -152,7 +152,8 @@ class Stiffness {
   // Forces of a point on (r_s, r_ss), and their derivatives.
   struct OnAxis {
     Eigen::Vector3d on_rs, on_rss;
-    Eigen::Matrix3d rs_rs, rss_rs;  // of on_rs and on_rss by r_s; by r_ss they are its transpose and 0
+    // Derivatives of on_rs and on_rss by r_s; by r_ss they are its transpose and 0.
+    Eigen::Matrix3d rs_rs, rss_rs;
   };
   OnAxis on_axis(int j) const {
     const SectionTriad<double>& a = fields_.a;
@@ -181,7 +182,8 @@ class Stiffness {
     return on;
   }
 
-  // (r_s, r_ss) at a point are those of the shape functions, and turn against the spin at A as seen from it.
+  // Adds the axis: (r_s, r_ss) at a point follow from the shape functions, and turn against the spin at A as
+  // seen from there.
   void add_axis() {
     Eigen::Matrix<double, 9, 9> shapes = Eigen::Matrix<double, 9, 9>::Zero();
     Eigen::Matrix<double, 9, 3> shapes_spin = Eigen::Matrix<double, 9, 3>::Zero();
@@ -220,8 +222,8 @@ class Stiffness {
     H_(k, l) += K(3, 3);
   }
 
-  // Second derivatives at fixed forces: of the spin at A under the moment on all that turns with its section,
-  // and of the turn times its force.
+  // Adds second derivatives at fixed forces: of the spin at A under the moment on all that turns with its
+  // section, and of the turn times its force.
   void add_nodes() {
     const std::array<Eigen::Vector3d, 2> t{fields_.a.t, fields_.b.t};
     const double opening = 1 + t[0].dot(t[1]);

@@ -7,14 +7,14 @@ namespace nurbeam::twist {
 
 using Moments = std::array<SectionMoments<double>, GaussRule::size>;
 
-/// What damps: the fields along the motion, and the time c of the moments c C de/dt.
+/// Viscous damping: the fields along the motion, and the time c of the moments c C de/dt.
 struct Viscosity {
   Fields<Dual<1>, GaussRule::size> moving;
   double damping;
 };
 
-/// The tangent of gradient_of the elastic and viscous moments C (e + c de/dt) of fixed ends, in closed form;
-/// `viscous`: none where nothing damps.
+/// The tangent of gradient_of, with the elastic and viscous moments C (e + c de/dt) and fixed ends, in closed
+/// form. `viscous`: empty without damping.
 Eigen::Matrix<double, reduced, reduced> section_tangent(const Drawing<double, GaussRule::size>& drawing,
                                                         const std::array<Eigen::Matrix3d, 2>& charts,
                                                         const SectionStiffness& section,

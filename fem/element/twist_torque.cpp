@@ -6,14 +6,16 @@ namespace nurbeam {
 
 namespace {
 
-// On the section at s, per weight.
+// A unit torque on the section at s, per weight.
 SectionMoment unit_torque(const ReferenceCurve& curve, double s) { return {curve.section(s).t, true, {}}; }
 
 }  // namespace
 
-// The spin at a point of the spins w_A, w_B at the ends and beta' is (1 - xi) w_A + xi w_B + b beta' - sum_j
-// (transport_j - xi w_j) K_j . r_s'_j/|r_s_j|, as transport takes the swing of the tangent in between with
-// it. Over the points that is h/2 (w_A + w_B) + 2 h/3 beta' - h sum_j w_j (1/2 - xi_j) K_j . r_s'_j/|r_s_j|.
+// Generalised force of a unit torque per length. The spin at a point, from the spins w_A, w_B at the ends and
+// beta', is
+//   (1 - xi) w_A + xi w_B + b beta' - sum_j (transport_j - xi w_j) K_j . r_s'_j/|r_s_j|,
+// as transport takes the swing of the tangent in between with it. The sum over the points is
+//   h/2 (w_A + w_B) + 2 h/3 beta' - h sum_j w_j (1/2 - xi_j) K_j . r_s'_j/|r_s_j|.
 template <class T>
 TwistElement::Reduced<T> TwistElement::fixed_torque(const Reduced<T>& q) const {
   const double h = drawing_.h;
@@ -48,7 +50,7 @@ TwistElement::Coordinates TwistElement::torque_force(const Coordinates& q) const
   return force;
 }
 
-// That of moving ends moves with the points too.
+// The gradient of the torque; with moving ends the points move too.
 TwistElement::Matrix TwistElement::torque_gradient(const Coordinates& q) const {
   if (fixed())
     return twist::spread_out<fixed_rows>(twist::derivatives<fixed_rows>(fixed_torque<Dual<fixed_rows>>(

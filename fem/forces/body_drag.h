@@ -6,8 +6,8 @@
 
 namespace nurbeam {
 
-/// The drag of the air on a body, rho/2 C_d A |w| w with w = wind - velocity. What it takes in still air is
-/// lost; of a wind's work that part is input which it does on a body at the wind's own speed.
+/// Air drag on a body, F = rho/2 C_d A |w| w with w = wind - velocity. The power F . w is lost; the power F .
+/// wind is input from outside.
 template <int D>
 class BodyDrag {
  public:
@@ -16,7 +16,7 @@ class BodyDrag {
 
   BodyDrag(const MeshedBeams<D>& at, int body);
 
-  /// Of all bodies on which the air pulls.
+  /// Binds the drag of all bodies on which the air pulls.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     const Structure& structure = binding.at.structure;
@@ -25,9 +25,9 @@ class BodyDrag {
   }
 
   const std::vector<int>& dofs() const { return dofs_; }
-  /// On its body [N].
+  /// The force of the air on the body [N].
   Vector force(const MeshedBeams<D>& at, const State& state) const;
-  /// What it gives to a body [N].
+  /// The force on a body of that number [N].
   Vector on_body(const MeshedBeams<D>& at, int body, const State& state) const {
     return body == body_ ? force(at, state) : Vector::Zero();
   }

@@ -16,7 +16,7 @@ double BufferForce<D>::force(const MeshedBeams<D>& at, const State& state) const
   const double x = pressed_in(state);
   const BufferContact contact = buffer_contact(at.mesh.memory, state.memory, stop_);
   const Buffer& buffer = *stop(at).buffer;
-  // One that begins a step away has no damper in it: within a step nothing jumps.
+  // A body that begins a step away from the buffer meets no damper in this step, so nothing jumps within it.
   if (contact == BufferContact::away) return std::max(0.0, buffer.stiffness * x);
   const double N = buffer.stiffness * x - buffer.damping * distance_.rate(state.q, state.v);
   return contact == BufferContact::pressing ? N : std::max(0.0, N);

@@ -9,9 +9,10 @@
 namespace nurbeam {
 
 /// The force of a stop with a buffer on its coordinates (StopDistance): max(0, k x + c dx/dt) for x = -d > 0.
-/// A body that has come to it presses from the first moment, which State::memory says, and while it does the
-/// force goes on below 0 in the trials of a step: the step ends where it comes to 0. With 0 below, a damper
-/// that is stiff against the step would have two answers, one of which throws the body back.
+///
+/// A body at the buffer presses from the first moment of the step, as State::memory tells. In the trials of a
+/// step the force may then fall below 0; the step ends where it comes to 0. If it were cut off at 0, a damper
+/// that is stiff against the step would have two solutions, and one of them throws the body back.
 template <int D>
 class BufferForce {
  public:
@@ -19,7 +20,7 @@ class BufferForce {
       .force = true, .energy = true, .loss = true, .memory = true, .on_body = true, .damper = true};
   BufferForce(const MeshedBeams<D>& at, int stop);
 
-  /// Of all buffers whose bodies are on their beams.
+  /// Binds the forces of all buffers whose bodies are on their beams.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     const MeshedBeams<D>& at = binding.at;
@@ -36,7 +37,7 @@ class BufferForce {
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
   double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
-  /// What it gives to a body [N].
+  /// The force on a body [N].
   Eigen::Matrix<double, D, 1> on_body(const MeshedBeams<D>& at, int body, const State& state) const {
     return distance_.on_body(body, state.q, force(at, state)).template head<D>();
   }

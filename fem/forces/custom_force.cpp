@@ -11,8 +11,7 @@ namespace nurbeam {
 
 namespace {
 
-// The spans that may hold s before the mesh changes: its own, and over the moving nodes at its ends the next
-// ones.
+// Spans that may hold s before the mesh changes: the span itself, and its neighbours over moving nodes.
 std::vector<int> spans_around(const Mesh& mesh, int span) {
   const int beam = mesh.spans[span].beam, first = mesh.first_span[beam], end = mesh.first_span[beam + 1];
   std::vector<int> spans{span};
@@ -23,13 +22,13 @@ std::vector<int> spans_around(const Mesh& mesh, int span) {
 
 }  // namespace
 
-// The points at one moment, with what relates them to the coordinates dofs_.
+// Positions and velocities of the points in one state, with their derivatives by the coordinates dofs_.
 template <int D>
 struct BoundCustomForce<D>::Points {
   Eigen::Matrix3Xd r, v;
   Eigen::MatrixXd gradient;       // (3 points x dofs) dr/dq
   Eigen::MatrixXd rate_gradient;  // (3 points x dofs) dv/dq
-  struct Curved {                 // of a point in an element whose ends move
+  struct Curved {                 // a point in an element whose ends move
     int element;
     PointField<D> field;
     ElementNodes<D> nodes;

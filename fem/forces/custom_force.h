@@ -14,24 +14,24 @@ namespace nurbeam {
 template <int D>
 class BoundCustomForce;
 
-/// Forces at bodies and at material points of beams by a law of the caller's: springs, magnets, controllers,
+/// Forces on bodies and on material points of beams by the caller's own law: springs, magnets, controllers,
 /// ...
 ///
-/// It works through a function pointer and with matrices of any size, outside the inner loops of the other
-/// forces.
+/// The law is a function pointer and its matrices may have any size, so it stays outside the inner loops of
+/// the other forces.
 struct CustomForce {
   template <int D>
   using Bound = BoundCustomForce<D>;
   struct Response {
     Eigen::Matrix3Xd force;       ///< (3 x points) [N]
     Eigen::MatrixXd by_position;  ///< (3 points x 3 points) [N/m]; empty: taken by central differences
-    Eigen::MatrixXd by_velocity;  ///< (3 points x 3 points) [N s/m]; likewise
+    Eigen::MatrixXd by_velocity;  ///< (3 points x 3 points) [N s/m]; empty: taken by central differences
   };
-  /// From the time and the points' positions and velocities (3 x points), in the model's own frame (third
-  /// rows zero in the plane).
+  /// The law gets the time, and positions and velocities of the points (3 x points), in the model's own frame
+  /// (third rows zero in the plane).
   using Law = std::function<Response(double t, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd& v)>;
 
-  /// A law knows of no factor of the loads: it is there as connectors are.
+  /// A law of its own has no load factor: State::load does not scale it, as it does not scale connectors.
   static constexpr bool permanent = true;
 
   std::vector<Grip> points;
@@ -43,15 +43,15 @@ template <int D>
 class BoundCustomForce {
  public:
   static constexpr ForceOffers offers{.force = true, .work = true, .actions = true};
-  /// `force` must outlive it.
+  /// `force` must outlive this object.
   BoundCustomForce(const CustomForce& force, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn);
 
-  /// Of all elements that may hold a point while this mesh stands, and of the bodies.
+  /// Coordinates of all elements that may hold a point while this mesh stands, and of the bodies.
   const std::vector<int>& dofs() const { return dofs_; }
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
-  /// Done between two states on one mesh [J]: the mean forces on the way.
+  /// Work of the forces between two states on one mesh [J]: their mean over the displacement.
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
-  /// Adds what it does to beams at a moment.
+  /// Adds the forces on points of beams in a state.
   void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <class Sink>
   void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {

@@ -16,17 +16,18 @@
 #include "fem/forces/spring.h"
 #include "fem/structure/type_list.h"
 
-/// The lists of forces: all that has to be said of a new one outside its own file.
+/// The lists of forces: a new force needs a change here and nowhere else outside its own file.
 ///
-/// A force in a mesh says in `offers` (force_offers.h) which hooks it has; the lists below hold it to that.
-/// State::load scales all loads. A description may be `permanent`: part of the state that buckling is about,
-/// not of the loads that it multiplies. One that is not itself such a force names its Bound<D>, made of
-/// (description, at, drawn); it may ask for nodes with for_each_node(visit).
+/// A force in a mesh declares in `offers` (force_offers.h) which hooks it has; the assertions below check
+/// that. State::load scales all loads. A description may be `permanent`: it belongs to the state that
+/// buckling is about, and not to the loads that buckling multiplies. A description that is not itself a force
+/// in a mesh names its Bound<D>, which is made of (description, at, drawn). It may ask for nodes with
+/// for_each_node(visit).
 namespace nurbeam {
 
 using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;
 
-/// In either dimension, and `Others` besides.
+/// The kinds of forces in either dimension, and `Others` besides.
 template <int D, class... Others>
 using ForceList =
     std::variant<PointMass<D>, BoundPlaceMass<D>, Spring<D>, BodyDrag<D>, BufferForce<D>, SlidingFriction<D>,
@@ -45,8 +46,8 @@ static_assert(all_keep_offers<2>(static_cast<BoundForce<2>*>(nullptr)),
 static_assert(all_keep_offers<3>(static_cast<BoundForce<3>*>(nullptr)),
               "a force offers what it has not, or the reverse");
 
-/// What the parts of a structure bring by themselves, in the order in which forces are added up, before those
-/// of descriptions: each offers bind(binding, add).
+/// Sources of forces: the parts of a structure that bring forces by themselves, in the order in which these
+/// are added up, before those of descriptions. Each source offers bind(binding, add).
 template <int D>
 using ForceSources =
     TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>, Spring<D>>;

@@ -9,30 +9,34 @@
 
 namespace nurbeam {
 
-/// What a force in a mesh offers, each by the function in brackets; the rest are facts.
+/// The hooks that a force in a mesh offers, each with its function in brackets; the last three are facts.
 struct ForceOffers {
-  bool force = false;  ///< (add_force(at, state, dynamics)) inertia less forces, with (add_tangent(at, state,
-                       ///< weights, sink)), which hands matrices to sink.element(index, K), of an element
-                       ///< with torsion sink.twist(index, K), or, in its own dofs(), to sink.own(K)
-  bool per_length = false;         ///< (per_length(beam, t)) what the elements carry
+  /// (add_force(at, state, dynamics)) inertia less forces; with (add_tangent(at, state, weights, sink)),
+  /// which hands matrices to sink.element(index, K), for an element with torsion to sink.twist(index, K), or
+  /// for its own dofs() to sink.own(K).
+  bool force = false;
+  bool per_length = false;         ///< (per_length(beam, t)) load that the elements carry
   bool energy = false;             ///< (add_energy(at, state, sum))
   bool momentum = false;           ///< (momentum(state))
   bool momentum_at_place = false;  ///< (add_momentum_of(velocity, p)), at a place s() of a beam()
-  bool roll = false;  ///< (spin(at, state)) of the body of a rider(), with (add_momentum(at, state, spin, p))
-  bool work = false;  ///< (work(at, from, to)) between two states on one mesh, but for weight [J]
-  bool loss = false;  ///< (loss(at, from, to)) of energy between them, where it is no rate in add_energy [J]
-  bool memory = false;   ///< (commit(at, state, memory)) its part of State::memory after a step
-  bool actions = false;  ///< (add_actions(at, state, actions)) what it does to points of beams
-  bool on_body = false;  ///< (on_body(at, body, state)) what it gives to a body [N]
+  /// (spin(at, state)) spin of the body of a rider(), with (add_momentum(at, state, spin, p)).
+  bool roll = false;
+  /// (work(at, from, to)) work between two states on one mesh, without that of weight [J]
+  bool work = false;
+  /// (loss(at, from, to)) energy lost between two states, where add_energy gives no rate of it [J]
+  bool loss = false;
+  bool memory = false;   ///< (commit(at, state, memory)) sets its part of State::memory after a step
+  bool actions = false;  ///< (add_actions(at, state, actions)) adds forces and couples on points of beams
+  bool on_body = false;  ///< (on_body(at, body, state)) force on a body [N]
   bool on_element =
       false;  ///< (on_element(e, state)) the generalised force on an element of its beam with torsion
-  bool damper = false;    ///< (is_damper(at)) whether it ends transients
-  bool friction = false;  ///< (friction(at, state)) of a rider()
+  bool damper = false;    ///< (is_damper(at)) whether the force ends transients
+  bool friction = false;  ///< (friction(at, state)) friction of the body of a rider()
   bool connector =
       false;  ///< (connector()) its number, with length_and_force(at, state), and carries_one_sign(at)
   bool depends_on_multipliers = false;
-  bool has_constant_inertia = false;  ///< the same in all states, and nothing of it changes with velocities
-  bool is_body = false;               ///< no more than a body's inertia and weight
+  bool has_constant_inertia = false;  ///< constant inertia, and no force that depends on velocities
+  bool is_body = false;               ///< inertia and weight of a body, and nothing else
 };
 
 namespace hooks {
@@ -51,7 +55,7 @@ NURBEAM_HOOK(on_element);
 NURBEAM_HOOK(is_damper);
 NURBEAM_HOOK(friction);
 
-/// Takes the matrices of tangents.
+/// A sink that takes the matrices of tangents.
 struct AnySink {
   template <class K>
   void element(int, const K&);
@@ -63,7 +67,7 @@ struct AnySink {
 
 }  // namespace hooks
 
-/// Whether a force keeps to what it says that it offers, in dimension D: a misspelt hook does not compile.
+/// Whether a force has exactly the hooks that it offers, in dimension D: a misspelt hook does not compile.
 template <class F, int D>
 consteval bool keeps_offers() {
   using namespace hooks;

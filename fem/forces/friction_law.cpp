@@ -6,7 +6,7 @@ namespace nurbeam {
 
 namespace {
 
-// A number and its derivatives by left and right.
+// A number and its derivatives by the slopes left and right.
 struct OfSlopes {
   double value;
   Eigen::Vector3d by_left, by_right;
@@ -23,7 +23,7 @@ std::pair<double, double> bound_factor(Friction::Law law, double mu, double c) {
   return {tanh / sine, -by_half / (2 * sine)};
 }
 
-// The bound without F_c, and its derivatives by the force too.
+// The bound without F_c, with its derivative by the force besides.
 struct Bound : OfSlopes {
   Eigen::Vector3d by_force;
 };
@@ -37,8 +37,8 @@ Bound normal_bound(const FrictionOfBody& body, const FrictionPoint& at, double m
   const Eigen::Vector3d across = at.force - along * m;
   const double root = std::sqrt(across.squaredNorm() + e * e), normal = root - e;
   const auto [phi, phi_c] = bound_factor(body.friction->law, mu, c);
-  // dN = (across . dforce - along force_across . dm) / root, dm = (I - m m') (dt1 + dt2) / c, dc = m . (dt1 +
-  // dt2).
+  // dN = (across . dforce - along force_across . dm) / root, dm = (I - m m') (dt1 + dt2) / c,
+  // dc = m . (dt1 + dt2).
   const Eigen::Vector3d by_tangent = -phi * along / (root * c) * across + normal * phi_c * m;
   const auto by_slope = [&](const Eigen::Vector3d& t, double length) -> Eigen::Vector3d {
     return (by_tangent - t * t.dot(by_tangent)) / length;
@@ -84,7 +84,7 @@ FrictionForce friction_force(const FrictionOfBody& body, const FrictionPoint& at
     f.by_left -= way * l * normal.by_left;
     f.by_right -= way * l * normal.by_right;
   }
-  // One that has turned round sticks until it is told otherwise.
+  // A body that has turned round sticks in the next step.
   const bool turned = before.slides * at.rate < 0 && friction.can_stick();
   f.memory = {held / k, at.s, turned ? 0 : way};
   return f;

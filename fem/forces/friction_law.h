@@ -5,40 +5,43 @@
 
 namespace nurbeam {
 
-/// What a body's friction remembers of the last step.
+/// Memory of a body's friction from the end of the last step.
 struct FrictionMemory {
-  double z = 0;    ///< elastic displacement of the stick, along the beam [m]
-  double s = 0;    ///< place of the body [m]
-  int slides = 0;  ///< the way that it slides: 1 towards the beam's end, -1 towards its start; 0: it sticks
+  double z = 0;  ///< elastic displacement of the stick, along the beam [m]
+  double s = 0;  ///< place of the body [m]
+  /// Direction of sliding: 1 towards the beam's end, -1 towards its start; 0: the body sticks.
+  int slides = 0;
 };
 
-/// A body on a beam at one moment, as its friction sees it.
+/// State of a body on a beam as its friction sees it.
 struct FrictionPoint {
-  Eigen::Vector3d force;        ///< of the beam on the body [N]
-  Eigen::Vector3d left, right;  ///< r_s on both sides, one where there is no kink [-]
+  Eigen::Vector3d force;        ///< force of the beam on the body [N]
+  Eigen::Vector3d left, right;  ///< r_s on both sides, equal where there is no kink [-]
   double s, rate, t;            ///< [m], [m/s], [s]
 };
 
 /// The constants of one body's friction.
 struct FrictionOfBody {
   const Friction* friction;
-  double stiffness, damping;  ///< of the stick, k [N/m] and d [N s/m]
-  double least_force;         ///< below which F_n is rounded off [N]
+  double stiffness, damping;  ///< stiffness k [N/m] and damping d [N s/m] of the stick
+  double least_force;         ///< e, the force below which F_n is rounded off [N]
 };
 
-/// The generalised force Q on the place of a body and its derivatives by all of a FrictionPoint but t.
+/// The generalised force Q on the place of a body, with its derivatives by all of a FrictionPoint but t.
 ///
-/// With l = (|left| + |right|)/2, m the bisector of the tangents, theta their angle, F_n = |force - m
-/// m.force|: Q = l F, F = -k z* - (d + c) l rate where it sticks, z* = z + l (s - s_n), as long as |k z* + d
-/// l rate| <= B, else F = -+B - c l rate. B = phi(mu, theta) F_n + F_c: phi = mu / cos(theta/2), or by the
-/// capstan's law tanh(mu theta/2) / sin(theta/2). |F_n| is sqrt(F_n^2 + e^2) - e, e the least force.
+/// Let l = (|left| + |right|)/2, m the bisector of the tangents, theta the angle between them, and
+/// F_n = |force - m m.force|. Then Q = l F.
+/// While the body sticks, F = -k z* - (d + c) l rate with z* = z + l (s - s_n); it sticks as long as
+/// |k z* + d l rate| <= B. While it slides, F = -+B - c l rate.
+/// The bound is B = phi(mu, theta) F_n + F_c, with phi = mu / cos(theta/2), or by the capstan's law
+/// tanh(mu theta/2) / sin(theta/2). For F_n stands sqrt(F_n^2 + e^2) - e, where e is the least force.
 struct FrictionForce {
   double along;           ///< F, the jump of the beam's tension, positive towards its end [N]
   double value;           ///< Q [N]
   double per_along;       ///< l = Q / F [-]
   double bound;           ///< B [N]
   double trial;           ///< k z* + d l rate [N]
-  FrictionMemory memory;  ///< at the end of a step that comes to this moment
+  FrictionMemory memory;  ///< memory after a step that ends in this state
   Eigen::Vector3d by_force = Eigen::Vector3d::Zero(), by_left = by_force, by_right = by_force;
   double by_s = 0, by_rate = 0;
 };

@@ -15,9 +15,9 @@ struct LineLoad {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N/m] of reference arc length
   TimeTable time = {};                              ///< factor
 
-  /// On a beam at time t, for a full load [N/m]: elements carry it.
+  /// The load on a beam at time t, with State::load = 1 [N/m]: elements carry it.
   Eigen::Vector3d per_length(int on_beam, double t) const;
-  /// Done between two states on one mesh [J]: the mean force on the way.
+  /// Work between two states on one mesh [J]: the mean force over the displacement.
   template <int D>
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
 };

@@ -14,7 +14,7 @@ struct LineTorque {
   double value = 0;     ///< [N m/m] of reference arc length
   TimeTable time = {};  ///< factor
 
-  /// On a beam, with its factors [N m/m].
+  /// The torque along the beam, with its factors of time and of State::load [N m/m].
   double per_length(const State& state) const {
     return state.load * value_and_slope(time, state.t).first * value;
   }
@@ -27,9 +27,9 @@ struct LineTorque {
     for (int i = at.mesh.first_span[beam]; i < at.mesh.first_span[beam + 1]; ++i)
       sink.twist(i, -w.stiffness * gradient(at.elements[i], state));
   }
-  /// Done between two states on one mesh [J]: the mean power over the time.
+  /// Work between two states on one mesh [J]: the mean power over the time.
   double work(const MeshedBeams<3>& at, const State& from, const State& to) const;
-  // In the plane there is no torsion.
+  // A beam in the plane has no torsion.
   void add_force(const MeshedBeams<2>&, const State&, Eigen::Ref<Eigen::VectorXd>) const {}
   template <class Sink>
   void add_tangent(const MeshedBeams<2>&, const State&, const TangentWeights&, Sink&&) const {}

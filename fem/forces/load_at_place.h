@@ -5,17 +5,18 @@
 
 namespace nurbeam {
 
-/// A vector at one place of a beam, which may move along it: what a force and a moment have in common.
+/// A vector at one place of a beam, which may move along the beam: the common data of a force and a moment.
 struct LoadAtPlace {
   int beam = 0;
   double s = 0;                                     ///< place at t = 0 [m]
   double speed = 0;                                 ///< ds/dt of the place [m/s]
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N] or [N m]
-  bool follower = false;  ///< turns with the tangent, of a beam with torsion with the section
+  bool follower = false;  ///< the vector turns with the tangent; on a beam with torsion, with the section
   TimeTable time = {};    ///< factor
-  /// Of a force on a beam with torsion: of where it acts from the axis, along d1 and d2 [m].
+  /// Offset of a force from the axis of a beam with torsion, along d1 and d2 [m].
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
-  bool permanent = false;  ///< part of the state that buckling is about, not of the loads that it multiplies
+  /// Part of the state that buckling is about, not of the loads that buckling multiplies.
+  bool permanent = false;
 };
 
 }  // namespace nurbeam

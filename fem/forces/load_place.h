@@ -7,7 +7,7 @@
 
 namespace nurbeam {
 
-/// Where a load is at time t [m]; nothing where it has left the beam by more than round-off.
+/// Place of a load at time t [m]; nothing if the load has left the beam by more than round-off.
 inline std::optional<double> place_of(const LoadAtPlace& load, const Beam& beam, double t) {
   const double s = load.s + load.speed * t, end = beam.curve.length(), round_off = 1e-12 * end;
   if (beam.is_ring()) return s;

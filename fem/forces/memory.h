@@ -7,13 +7,13 @@
 #include "fem/structure/memory_places.h"
 #include "fem/structure/structure.h"
 
-/// State::memory by MemoryPlaces: of a rider with friction its FrictionMemory, of a stop what a body does to
-/// its buffer, of a connector that jumps 1 where it is taut.
+/// State::memory in the order of MemoryPlaces. A rider with friction has its FrictionMemory, a stop the
+/// BufferContact of its body, and a connector that jumps has 1 where it is taut.
 namespace nurbeam {
 
-/// What remembers, each by its name: the friction of "trolley" on beam "cable", ...
+/// Names of all parts with a memory: the friction of "trolley" on beam "cable", ...
 std::vector<std::string> what_remembers(const Structure& structure);
-/// All zero.
+/// A memory of zeros.
 inline Eigen::VectorXd no_memory(const MemoryPlaces& places) { return Eigen::VectorXd::Zero(places.size); }
 FrictionMemory friction_memory(const MemoryPlaces& places, const Eigen::VectorXd& memory, int rider);
 void set_friction_memory(const MemoryPlaces& places, Eigen::VectorXd& memory, int rider,

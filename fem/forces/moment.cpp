@@ -32,7 +32,7 @@ double Moment::work(const MeshedBeams<D>& at, const State& from, const State& to
   if constexpr (D == 3)
     if (works_on_section(*this, on_section, at.structure))
       return section_load_work(*this, on_section, at, from, to);
-  std::optional<int> element;  // of the first state
+  std::optional<int> element;  // element of the first state
   bool handed_over = false;
   const auto loaded = [&](const State& state) -> std::optional<LoadedField<D>> {
     const auto p = LoadedPoint<D>::of(*this, at, state);
@@ -42,7 +42,7 @@ double Moment::work(const MeshedBeams<D>& at, const State& from, const State& to
     return LoadedField<D>(*p, p->rs, moment_on_slope(p->vector, widened<D>(p->rs.value)), at, state);
   };
   const auto before = loaded(from), after = loaded(to);
-  // A body that passes with a kink hands the moment over to another slope, which is no motion.
+  // When a body with a kink passes, another slope takes over the moment; this change of slope is no motion.
   return load_work<D>(before, after, speed != 0 || handed_over, to.t - from.t);
 }
 

@@ -12,16 +12,16 @@ TurnedVector moment_on_slope(const TurnedVector& m, const Eigen::Vector3d& rs);
 struct Moment : LoadAtPlace {
   static constexpr ForceOffers offers{
       .force = true, .work = true, .actions = true, .has_constant_inertia = true};
-  static constexpr OnSection on_section = OnSection::moment;  ///< of a beam with torsion
+  static constexpr OnSection on_section = OnSection::moment;  ///< hook on a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <int D>
   std::optional<LoadTangent<D>> tangent(const MeshedBeams<D>& at, const State& state,
                                         const TangentWeights& w) const;
-  /// Done between two states on one mesh [J].
+  /// Work between two states on one mesh [J].
   template <int D>
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
-  /// Adds what it does to the beam at a moment.
+  /// Adds the couple on the beam in a state.
   template <int D>
   void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <int D, class Sink>

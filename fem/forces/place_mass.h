@@ -16,7 +16,7 @@ struct PlaceMass {
   int beam;
   double s;            ///< [m]
   double mass;         ///< [kg]
-  bool weighs = true;  ///< else it has inertia alone: what hangs over a pulley pulls as a force
+  bool weighs = true;  ///< false: inertia alone, as a mass that hangs over a pulley pulls as a force
   static constexpr bool permanent = true;
 
   template <int D>
@@ -36,7 +36,7 @@ class BoundPlaceMass {
       .force = true, .energy = true, .momentum = true, .momentum_at_place = true};
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  /// Throws std::invalid_argument where the beam has no node there.
+  /// Throws std::invalid_argument where the beam has no node at the place.
   BoundPlaceMass(const PlaceMass& mass, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn);
 
   const std::vector<int>& dofs() const { return dofs_; }
@@ -50,9 +50,9 @@ class BoundPlaceMass {
     sink.own(K);
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
-  /// [kg m/s].
+  /// Momentum [kg m/s].
   Vector momentum(const State& state) const { return mass_.mass * state.v.segment<D>(dofs_[0]); }
-  /// Adds the generalised momentum of that velocity of the place [m/s].
+  /// Adds the generalised momentum for this velocity of the place [m/s].
   void add_momentum_of(const Eigen::Vector3d& velocity, Eigen::Ref<Eigen::VectorXd> p) const {
     p.segment<D>(dofs_[0]) += mass_.mass * velocity.head<D>();
   }

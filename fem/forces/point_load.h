@@ -10,25 +10,25 @@
 
 namespace nurbeam {
 
-/// Where such a load is at a moment: nothing is there when it has left the beam.
+/// A load at its place in a state; there is none when the load has left the beam.
 template <int D>
 struct LoadedPoint {
   int element;
   double s;  ///< as the element counts it [m]
   PointShape<D> shape;
   PointField<D> rs;
-  TurnedVector vector;  ///< without its factor
-  double factor;        ///< of time and of State::load
+  TurnedVector vector;  ///< the load without its factor
+  double factor;        ///< product of the factor of time and State::load
 
   static std::optional<LoadedPoint> of(const LoadAtPlace& load, const MeshedBeams<D>& at, const State& state);
 
-  /// The force f conjugate to the field `loaded` on the dynamics: less loaded_q' f.
+  /// Subtracts loaded_q' f from the dynamics, where f is the force conjugate to the field `loaded`.
   void add_force(const MeshedBeams<D>& at, const PointField<D>& loaded, const TurnedVector& f,
                  Eigen::Ref<Eigen::VectorXd> dynamics) const;
   ElementMatrix<D> stiffness(const PointField<D>& loaded, const TurnedVector& f, double weight) const;
 };
 
-/// What a load at a place does at a moment: its force, the field it works on there, and its power.
+/// A load at a place in a state: the field that it works on, its force, and its power.
 template <int D>
 struct LoadedField {
   Eigen::Matrix<double, D, 1> field, force;
@@ -38,14 +38,14 @@ struct LoadedField {
               const MeshedBeams<D>& at, const State& state);
 };
 
-/// Work between two states [J]: the mean force on the way, which is exact for a dead force that stays at its
-/// place, or the mean power over the time where it `moves`. Nothing at a moment at which the load is not
-/// there.
+/// Work between two states [J]. A load that stays at its place does the work of its mean force over the
+/// displacement, exact for a dead force. A load that `moves` does the mean power over the time. A state in
+/// which the load has left the beam counts as zero.
 template <int D>
 double load_work(const std::optional<LoadedField<D>>& from, const std::optional<LoadedField<D>>& to,
                  bool moves, double time);
 
-/// What a load adds to the tangent of one element.
+/// Contribution of a load to the tangent of one element.
 template <int D>
 struct LoadTangent {
   int element;
@@ -56,16 +56,16 @@ struct LoadTangent {
 struct PointLoad : LoadAtPlace {
   static constexpr ForceOffers offers{
       .force = true, .work = true, .actions = true, .has_constant_inertia = true};
-  static constexpr OnSection on_section = OnSection::force;  ///< of a beam with torsion
+  static constexpr OnSection on_section = OnSection::force;  ///< hook on a beam with torsion
   template <int D>
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <int D>
   std::optional<LoadTangent<D>> tangent(const MeshedBeams<D>& at, const State& state,
                                         const TangentWeights& w) const;
-  /// Done between two states on one mesh [J].
+  /// Work between two states on one mesh [J].
   template <int D>
   double work(const MeshedBeams<D>& at, const State& from, const State& to) const;
-  /// Adds what it does to the beam at a moment.
+  /// Adds the force on the beam in a state.
   template <int D>
   void add_actions(const MeshedBeams<D>& at, const State& state, std::vector<PointAction>& actions) const;
   template <int D, class Sink>

@@ -33,7 +33,7 @@ class PointMass {
     sink.own(tangent(w));
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
-  /// [kg m/s].
+  /// Momentum [kg m/s].
   Vector momentum(const State& state) const;
 
  private:

@@ -10,10 +10,11 @@
 namespace nurbeam {
 
 /// The inertia J of the roll of a sliding body with the section that it follows (FollowedNode,
-/// FollowedPoint): T = J w^2/2, w the spin of that section about its tangent t, which is the body's and not
-/// the material's. What keeps it in motion is the moment d(J w t)/dt on the section.
+/// FollowedPoint). T = J w^2/2, where w is the spin of the section at the body about its tangent t, not the
+/// spin of the material there. The force is the moment d(J w t)/dt on the section.
 ///
-/// The tangent of a body on a point misses third derivatives of the section by the places (PlacedSection).
+/// The tangent matrix of a body on a point lacks third derivatives of the section by the places
+/// (PlacedSection).
 template <class Section>
 class RollInertia {
  public:
@@ -41,7 +42,7 @@ class RollInertia {
   /// Adds the generalised momentum of a roll with that spin.
   void add_momentum(const MeshedBeams<3>& at, const State& state, double spin,
                     Eigen::Ref<Eigen::VectorXd> p) const;
-  /// Where the body is on a point.
+  /// Adds the couple on the beam where the body is carried as a point.
   void add_actions(const MeshedBeams<3>& at, const State& state, std::vector<PointAction>& actions) const;
 
  private:
@@ -58,7 +59,7 @@ class RollInertia {
     return {section_.coordinates(at, state.q), gathered(section_.dofs(), state.v),
             gathered(section_.dofs(), state.a)};
   }
-  // d(J w t)/dt, w = d1' . d2.
+  // The moment d(J w t)/dt with w = d1' . d2.
   template <class T, class Here>
   Vector3<T> moment(const Here& here, const Motion<T>& x) const {
     using Rate = Dual<1, T>;
@@ -87,7 +88,7 @@ class RollInertia {
 extern template class RollInertia<FollowedNode>;
 extern template class RollInertia<FollowedPoint>;
 
-/// That of a body that has left its beam: it rolls on as it did.
+/// Roll of a body that has left its beam: the spin stays as it was.
 class FreeRoll {
  public:
   static constexpr ForceOffers offers{.energy = true};
@@ -98,7 +99,7 @@ class FreeRoll {
   double energy_;
 };
 
-/// Of all bodies that roll with a section.
+/// Binds the roll inertia of all bodies that follow a section.
 template <int D>
 struct BodyRolls {
   template <class Add>

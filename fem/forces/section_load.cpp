@@ -7,7 +7,8 @@ namespace nurbeam {
 
 namespace {
 
-// Of a force beside the axis; one that follows the section has a moment that follows it, given as drawn.
+// The moment of a force beside the axis. A force that follows the section has a moment that does too, given
+// in the axes of the drawing.
 SectionMoment moment_of(const LoadAtPlace& load, const DrawnSection& drawn, const Eigen::Vector3d& force) {
   if (!load.follower) return {force, false, load.offset};
   return {(load.offset[0] * drawn.d1 + load.offset[1] * drawn.d2).cross(force), true, {}};

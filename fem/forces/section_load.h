@@ -6,26 +6,26 @@
 
 namespace nurbeam {
 
-/// What of a load at a place of a beam with torsion works on the section there: a moment, dead or following
-/// it, or a force that follows it or acts beside the axis.
+/// Kinds of loads at a place of a beam with torsion that work on its section: a moment, dead or follower, or
+/// a force that follows the section or acts beside the axis.
 enum class OnSection { moment, force };
 inline bool works_on_section(const LoadAtPlace& load, OnSection kind, const Structure& structure) {
   return structure.beams[load.beam].has_torsion() &&
          (kind == OnSection::moment || load.follower || load.offset != Eigen::Vector2d::Zero());
 }
 
-/// Such a load at a moment.
+/// A load on a section in one state.
 struct SectionLoad {
   int element;
-  TwistLayout::Coordinates force;  ///< generalised, with the factors of time and of State::load
-  TwistLayout::Matrix gradient;    ///< in q; unset where it was not asked for
+  TwistLayout::Coordinates force;  ///< generalised force, with the factors of time and of State::load
+  TwistLayout::Matrix gradient;    ///< derivative of the force in q; unset without `with_gradient`
 
-  /// Nothing where the load has left the beam. Precondition: the beam has torsion.
+  /// The load in a state; nothing where it has left the beam. Precondition: the beam has torsion.
   static std::optional<SectionLoad> of(const LoadAtPlace& load, OnSection kind, const MeshedBeams<3>& at,
                                        const State& state, bool with_gradient);
 
   void add_force(const MeshedBeams<3>& at, Eigen::Ref<Eigen::VectorXd> dynamics) const;
-  /// [W].
+  /// Power [W].
   double power(const MeshedBeams<3>& at, const Eigen::VectorXd& v) const;
 };
 

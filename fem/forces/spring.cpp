@@ -80,7 +80,8 @@ void Spring<D>::commit(const MeshedBeams<D>& at, const State& state, Eigen::Vect
   const Connector& connector = described(at);
   if (!connector.jumps() || memory.size() == 0) return;
   const Line line = axis_.line(state);
-  // One that has been slack and come back within the step pulls on: the force goes on over its end.
+  // A connector that went slack and came back within the step pulls on: the force goes on beyond the free
+  // length.
   const bool pulls = pull(at, line, state).force != 0;
   const double stretch = connector.sign() * (line.length - connector.length);
   set_taut(at.mesh.memory, memory, number_, pulls || stretch > -connector.least_stretch(line.length));

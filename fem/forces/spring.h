@@ -9,19 +9,21 @@
 
 namespace nurbeam {
 
-/// The pull of a connector of that stretch e and rate of it, and its derivatives. One that carries one sign
-/// and is not `taut` at the start of a step has no damping in it; one that is, wherever it comes to: within a
-/// step nothing jumps. `carries`: whether its stretch does, where that is not to be seen from its sign.
+/// Pull of a connector for a stretch e and its rate, with derivatives.
+///
+/// A connector that carries one sign and is not `taut` at the start of a step has no damping in that step; a
+/// taut one has damping throughout. So nothing jumps within a step. `carries`: whether the stretch carries,
+/// where a solver prescribes this instead of the sign of the stretch.
 struct ConnectorPull {
   double force = 0;    ///< N [N]
-  double elastic = 0;  ///< its part k e, whose energy is stored [N]
+  double elastic = 0;  ///< elastic part k e of N, whose energy is stored [N]
   double by_stretch = 0, by_rate = 0;
 
   ConnectorPull(const Connector& connector, double stretch, double rate, bool taut,
                 std::optional<bool> carries = {});
 };
 
-/// A connector but a rod, in one mesh.
+/// A connector other than a rod, in one mesh.
 template <int D>
 class Spring {
  public:
@@ -35,7 +37,7 @@ class Spring {
   Spring(int connector, const MeshedBeams<D>& at)
       : number_(connector), axis_(at.structure.connectors[connector], at.structure, at.mesh) {}
 
-  /// Of all connectors but rods.
+  /// Binds all connectors other than rods.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     const std::vector<Connector>& connectors = binding.at.structure.connectors;
@@ -51,23 +53,24 @@ class Spring {
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;
 
-  /// What damping takes between two states [J]: the mean force on the way.
+  /// Energy that damping takes between two states [J]: the mean force over the change of length.
   double loss(const MeshedBeams<D>& at, const State& from, const State& to) const;
   void commit(const MeshedBeams<D>& at, const State& state, Eigen::VectorXd& memory) const;
 
   bool is_damper(const MeshedBeams<D>& at) const { return described(at).damping > 0; }
-  /// In the model.
+  /// Number of the connector in the model.
   int connector() const { return number_; }
-  /// Whether its law has a kink, and whether it is stretched so that it carries.
+  /// carries_one_sign(): whether the connector's law has a kink; carries(): whether it is stretched so that
+  /// it carries.
   bool carries_one_sign(const MeshedBeams<D>& at) const { return described(at).sign() != 0; }
   bool carries(const MeshedBeams<D>& at, const State& state) const;
-  /// Its place in State::sides.
+  /// Index of the connector in State::sides.
   Eigen::Index side(const MeshedBeams<D>& at) const {
     return static_cast<Eigen::Index>(at.elements.size()) + number_;
   }
-  /// |d| or n . d [m], and N [N].
+  /// Length |d| or n . d [m], and N [N].
   std::pair<double, double> length_and_force(const MeshedBeams<D>& at, const State& state) const;
-  /// What it gives to a body [N].
+  /// The force on a body [N].
   Eigen::Matrix<double, D, 1> on_body(const MeshedBeams<D>& at, int body, const State& state) const;
 
  private:

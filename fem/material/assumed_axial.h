@@ -22,7 +22,8 @@ struct AssumedStrainOf {
       : c0(integral / length), c1((at_b - at_a) / 2.), c2((at_a + at_b) / 2. - c0) {}
 
   NURBEAM_WITHIN T at(double xi) const { return c0 + (2 * xi - 1) * c1 + (6 * xi * (xi - 1) + 1) * c2; }
-  /// The strain that a section carries: without c2, which is the residue of bending and no force.
+  /// The strain that gives the axial force of a section: without c2, which is a residue of bending and no
+  /// force.
   double carried(double xi) const { return c0 + c1 * (2 * xi - 1); }
   /// int eps_hat ds over [xi_1, xi_2] divided by l.
   double mean_part(double xi_1, double xi_2) const {
@@ -34,17 +35,17 @@ struct AssumedStrainOf {
 };
 using AssumedStrain = AssumedStrainOf<double>;
 
-/// Means over an element of what the axial law has at eps_hat, times the functions by which eps_hat is
-/// phi_0 I/l + phi_A eps_A + phi_B eps_B: phi_0 = 6 xi (1 - xi), phi_A = (1 - xi)(1 - 3 xi), phi_B = xi (3 xi
-/// - 2).
+/// Means over an element of psi and its derivatives at eps_hat, times the functions phi in
+/// eps_hat = phi_0 I/l + phi_A eps_A + phi_B eps_B: phi_0 = 6 xi (1 - xi), phi_A = (1 - xi)(1 - 3 xi),
+/// phi_B = xi (3 xi - 2).
 template <class T>
 struct AxialMeans {
-  T energy;                        ///< of psi [J/m]
-  T by_0, by_a, by_b;              ///< of psi' phi [N]
-  T m00, m0a, m0b, maa, mab, mbb;  ///< of psi'' phi phi [N]
+  T energy;                        ///< mean of psi [J/m]
+  T by_0, by_a, by_b;              ///< means of psi' phi [N]
+  T m00, m0a, m0b, maa, mab, mbb;  ///< means of psi'' phi phi [N]
 };
 
-/// The means of a linear law, in closed form: of stresses `stiffness` times a strain.
+/// The means of a linear law in closed form, with stress = `stiffness` times strain.
 template <class T>
 NURBEAM_WITHIN AxialMeans<T> linear_axial_means(double stiffness, const AssumedStrainOf<T>& strain) {
   const auto& [c0, c1, c2] = strain;
@@ -61,8 +62,8 @@ NURBEAM_WITHIN AxialMeans<T> linear_axial_means(double stiffness, const AssumedS
           on_end};
 }
 
-/// The means of the beam's law at a strain less the free one, by the quadrature `Rule` where the law is not
-/// linear.
+/// The means of the beam's law at a strain less the free strain, by the quadrature `Rule` where the law is
+/// not linear.
 template <class Rule, class T>
 NURBEAM_WITHIN AxialMeans<T> axial_means(const BeamProperties& beam, const AssumedStrainOf<T>& strain,
                                          double free) {
@@ -87,7 +88,7 @@ NURBEAM_WITHIN AxialMeans<T> axial_means(const BeamProperties& beam, const Assum
   return sum;
 }
 
-/// The means of the damping of these strain rates, which is that of Green's law for all laws.
+/// The means of the damping stress at these strain rates; all laws are damped as Green's law is.
 template <class T>
 NURBEAM_WITHIN AxialMeans<T> viscous_axial_means(const BeamProperties& beam, const AssumedStrainOf<T>& rate) {
   return linear_axial_means(beam.damping * beam.axial_stiffness, rate);
@@ -98,7 +99,7 @@ NURBEAM_WITHIN AxialMeans<T> viscous_axial_means(const BeamProperties& beam, con
 class AssumedAxialEnergy {
  public:
   double value;
-  Eigen::Vector4d gradient;  ///< the first: the axial force (mean, less the residue of bending) [N]
+  Eigen::Vector4d gradient;  ///< entry 0: the axial force (mean, less the residue of bending) [N]
 
   AssumedAxialEnergy(const AxialMeans<double>& means, const Eigen::Vector4d& y) : means_(means), y_(y) {
     const double mean = y[0] / y[3];
@@ -123,7 +124,7 @@ class AssumedAxialEnergy {
   Eigen::Vector4d y_;
 };
 
-/// That energy by a beam's law.
+/// The axial energy of an element by its beam's law.
 template <class Rule>
 AssumedAxialEnergy assumed_axial_energy(const BeamProperties& beam, const Eigen::Vector4d& y, double free) {
   return {axial_means<Rule>(beam, AssumedStrain(y[0], y[1], y[2], y[3]), free), y};

@@ -12,7 +12,7 @@ namespace nurbeam {
 /// `strain` is the Green strain less the free one; the law is asked for doubles and for numbers side by side.
 using AxialLaw = std::variant<GreenLaw, HookeLaw, ForceOverStretch>;
 
-/// What the law of a beam has at a strain.
+/// Energy, force and stiffness of a beam's law at a strain.
 template <class T>
 NURBEAM_WITHIN AxialPoint<T> axial_point(const AxialLaw& law, double EA, const T& strain, double free) {
   AxialPoint<T> point;

@@ -30,7 +30,7 @@ ForceOverStretch::ForceOverStretch(std::vector<std::pair<double, double>> rows) 
   energy_at_zero_ = from_start(0).energy;
 }
 
-// Energy counted from the first row.
+// Law at e with the energy counted from the first row.
 AxialPoint<double> ForceOverStretch::from_start(double e) const {
   const bool before = e <= rows_.front().first;
   if (before || e >= rows_.back().first) {

@@ -6,11 +6,11 @@
 
 namespace nurbeam {
 
-/// A law F(e) by rows (engineering strain e [-], force F [N]), joined by the C1 cubic that grows where the
-/// rows do, and straight beyond them. The rows are those of the unstressed beam: no EA enters.
+/// A law F(e) by rows (engineering strain e [-], force F [N]), joined by a C1 cubic that grows where the rows
+/// do, and straight beyond them. The rows hold for the unstressed beam: no EA enters.
 class ForceOverStretch {
  public:
-  /// Throws std::invalid_argument unless there are two rows at least, of which both numbers increase.
+  /// Throws std::invalid_argument unless there are at least two rows, and both numbers increase.
   explicit ForceOverStretch(std::vector<std::pair<double, double>> rows);
 
   template <class T>
@@ -36,7 +36,7 @@ class ForceOverStretch {
   AxialPoint<double> from_start(double e) const;
 
   std::vector<std::pair<double, double>> rows_;
-  std::vector<double> slopes_, energies_;  ///< at the rows; energies from the first row on
+  std::vector<double> slopes_, energies_;  ///< at the rows; energies counted from the first row
   double energy_at_zero_ = 0;
 };
 

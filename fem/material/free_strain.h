@@ -3,11 +3,11 @@
 
 namespace nurbeam {
 
-/// Green's axial strain against the drawing at which a section carries no axial force: of a beam that is
-/// longer or shorter than it is drawn, or warmer. Along the whole beam the same.
+/// The free strain: Green's axial strain against the drawing at which a section carries no axial force. A
+/// beam has one if it is longer or shorter than drawn, or warmer. It is equal along the whole beam.
 struct FreeStrain {
   double constant = 0;     ///< (lambda^2 - 1)/2 of the unstressed length over the drawn one, lambda
-  TimeTable thermal = {};  ///< of expansion, over time; empty: none
+  TimeTable thermal = {};  ///< thermal expansion over time; empty: none
   /// -S_0/EA of a beam that carries the axial force S_0 as drawn: the energy S_0 eps + EA eps^2/2, plus a
   /// constant. It is no load: State::load does not scale it.
   double of_tension = 0;

@@ -3,8 +3,8 @@
 
 namespace nurbeam {
 
-/// Force proportional to the Green strain, psi = EA strain^2/2: the law of the source papers. EA [N] is that
-/// per drawn length (BeamProperties::with_free_stretch).
+/// Force proportional to the Green strain, psi = EA strain^2/2: the law of the source papers. EA [N] refers
+/// to the drawn length (BeamProperties::with_free_stretch).
 struct GreenLaw {
   template <class T>
   NURBEAM_WITHIN AxialPoint<T> operator()(double EA, const T& strain, double) const {

@@ -3,8 +3,8 @@
 
 namespace nurbeam {
 
-/// Force proportional to the engineering strain, F = EA e. With the stiffness K = d2(psi)/d(eps)2 [N] of the
-/// free beam per drawn length, the EA of BeamProperties, F is K lambda_0^3 e.
+/// Force proportional to the engineering strain, F = EA e. K = d2(psi)/d(eps)2 [N] is the stiffness of the
+/// free beam per drawn length, the EA of BeamProperties; then F = K lambda_0^3 e.
 struct HookeLaw {
   template <class T>
   AxialPoint<T> operator()(double K, const T& strain, double free) const {

@@ -11,7 +11,7 @@
 namespace nurbeam {
 
 NURBEAM_WITHIN double square_root(double a) { return std::sqrt(a); }
-/// The number, or 0 where it is negative.
+/// The number itself, or 0 where it is negative.
 NURBEAM_WITHIN double positive(double a) { return a > 0 ? a : 0; }
 /// 1 where the number is 0, else 0.
 NURBEAM_WITHIN double is_zero(double a) { return a == 0 ? 1 : 0; }
@@ -40,7 +40,7 @@ SideBySide<n> each(const SideBySide<n>& a, const Function& f) {
   return a.unaryExpr(f);
 }
 
-/// Numbers that sums begin with.
+/// Zero, the number that sums begin with.
 template <class T>
 NURBEAM_WITHIN T zero() {
   if constexpr (requires { T::Zero(); })
@@ -49,7 +49,7 @@ NURBEAM_WITHIN T zero() {
     return T{};
 }
 
-/// The same number in all places.
+/// A pack of numbers that all have this value.
 template <class T>
 NURBEAM_WITHIN T filled(double number) {
   return zero<T>() + number;

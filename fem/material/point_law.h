@@ -24,11 +24,11 @@ class PointLaw {
         EI_(beam.axis_bending_stiffness()),
         c_(beam.damping) {}
 
-  /// Whether the pointwise strain carries; whether its rates do.
+  /// stretches(): whether the pointwise strain carries; is_damped(): whether strain rates are damped.
   NURBEAM_WITHIN bool stretches() const { return EA_ > 0; }
   NURBEAM_WITHIN bool is_damped() const { return c_ > 0; }
 
-  /// By K - kappa_0: energy [J/m], moment [N m] and stiffness [N m^2].
+  /// Bending as functions of K - kappa_0: energy [J/m], moment [N m] and stiffness [N m^2].
   template <class T>
   NURBEAM_WITHIN T bending_energy(const T& square_of_bend) const {
     return EI_ / 2 * square_of_bend;
@@ -38,13 +38,13 @@ class PointLaw {
     return EI_ * bend;
   }
   NURBEAM_WITHIN double bending_stiffness() const { return EI_; }
-  /// By eps - eps_0; without pointwise strain, zeros.
+  /// The axial law at eps - eps_0; zeros without pointwise strain.
   template <class T>
   NURBEAM_WITHIN AxialPoint<T> axial(const T& strain) const {
     return axial_point(beam_.law, EA_, strain, 0);
   }
 
-  /// By the rates of K and eps: moment [N m], d(psi)/d(eps) [N] and the power that they lose [W/m].
+  /// Damping as functions of the rates of K and eps: moment [N m], d(psi)/d(eps) [N] and lost power [W/m].
   template <class T>
   NURBEAM_WITHIN T viscous_moment(const T& bend_rate) const {
     return c_ * EI_ * bend_rate;
@@ -65,8 +65,8 @@ struct SectionForces {
   double axial_force = 0;  ///< d(axial energy)/d|r_s| = d(psi)/d(eps) |r_s|, tension positive [N]
 };
 
-/// `eps`: the axial strain that the section carries; eps_0 the drawing's; `free` that without axial force. A
-/// section that is compressed to nothing, eps <= -1/2, as the assumed strain of a coarse element can be,
+/// `eps`: the axial strain that the section carries; eps0: that of the drawing; `free`: the free strain. The
+/// assumed strain of a coarse element can compress a section to nothing, eps <= -1/2: the section then
 /// carries no force.
 inline SectionForces section_forces(const BeamProperties& beam, double eps, double eps0, double free) {
   return {(eps - free) / (1 + 2 * beam.free_strain.constant),
@@ -74,8 +74,8 @@ inline SectionForces section_forces(const BeamProperties& beam, double eps, doub
               std::sqrt(std::max(0.0, 1 + 2 * eps))};
 }
 
-/// The viscosity eta = beta S of the tension S at a mean strain less the free one, and d(eta)/d(strain) [N
-/// s]. `taut`: 1 in tension, or where it is held to be, else 0.
+/// The viscosity eta = beta S of the tension S at a mean strain less the free strain, and d(eta)/d(strain) [N
+/// s]. `taut`: 1 in tension, or where a solver prescribes it, else 0.
 template <class T>
 struct TensionDamping {
   T value, by_strain;

@@ -10,18 +10,18 @@
 
 namespace nurbeam {
 
-/// The numbers of a cross section; its bending stiffness is the same in all directions, or bending is in one
+/// The numbers of a cross section. Its bending stiffness is equal in all directions, or bending is in one
 /// plane.
 struct Section {
   double area = 0;                               ///< A [m^2]
   double second_moment = 0;                      ///< I [m^4]
   std::optional<double> torsion_constant = {};   ///< J [m^4], where it is known
   std::optional<double> radius = {}, bore = {};  ///< of a disk or a pipe, outer and inner [m]
-  /// Greatest distance of the section from the axis that bending turns it about [m], where it is known.
+  /// Maximum distance of the section from the axis about which bending turns it [m], where it is known.
   std::optional<double> extreme_fibre = {};
 
-  /// Where it is largest, of an axial force [N] and a bending moment [N m], with the sign of the force:
-  /// N/A + M c/I [Pa].
+  /// The maximum stress of a section under an axial force [N] and a bending moment [N m], with the sign of
+  /// the force: N/A + M c/I [Pa].
   std::optional<double> fibre_stress(double axial_force, double bending_moment) const;
 
   /// A disk, or with a bore a pipe. Throws std::invalid_argument unless 0 <= bore < radius.
@@ -34,13 +34,10 @@ struct Material {
   double damping = 0;                        ///< c [s]: stress = E (strain + c d(strain)/dt)
   std::optional<double> shear_modulus = {};  ///< G [Pa], where it is known
   double mass_damping = 0;                   ///< alpha [1/s]: force -alpha rho A v on the material velocity
-  double stiffness_damping = 0;              ///< beta [s]: as c, and beta times the stiffness of tension
+  double stiffness_damping = 0;              ///< beta [s]: adds to c, and beta times the stiffness of tension
 };
 
-/// What the sections of a beam with torsion have besides: stiffness about their own axes d1, d2, and inertia.
-///
-/// EI1 is the stiffness for rotation about d1; for a profile whose x axis is d1 and y axis d2, EI1 = E I_x,
-/// EI2 = E I_y, EI12 = -E I_xy.
+/// Stiffness of the sections of a beam with torsion about their own axes d1, d2, and their inertia of spin.
 struct SectionStiffness {
   double bending_1 = 0, bending_2 = 0;  ///< EI1, EI2 [N m^2]
   double bending_product = 0;           ///< EI12 [N m^2]
@@ -50,25 +47,25 @@ struct SectionStiffness {
   bool operator==(const SectionStiffness&) const = default;
 };
 
-/// Plain numbers in SI: what the constitutive law needs of a cross section and its material.
+/// Plain numbers in SI that the constitutive law needs of a cross section and its material.
 struct BeamProperties {
   double axial_stiffness = 0;    ///< EA [N]
   double bending_stiffness = 0;  ///< EI [N m^2]
   double mass_per_length = 0;    ///< rho A [kg/m]
   double damping = 0;            ///< c [s]
   double mass_damping = 0;       ///< alpha [1/s]
-  double tension_damping = 0;    ///< beta [s] of the stiffness that tension gives (BeamElement)
+  double tension_damping = 0;    ///< beta [s], for the stiffness that tension gives (BeamElement)
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
   AxialLaw law = GreenLaw();
-  std::optional<SectionStiffness> sections = {};  ///< of a beam with torsion, in space
+  std::optional<SectionStiffness> sections = {};  ///< for a beam with torsion, in space
   FreeStrain free_strain = {};                    ///< needs AxialStrain::ends_and_mean
 
   /// EA where it multiplies a pointwise strain; else 0.
   double pointwise_axial_stiffness() const {
     return axial_strain == AxialStrain::pointwise ? axial_stiffness : 0;
   }
-  /// Axial force as drawn [N], of a beam whose free strain is what S_0 makes of it.
+  /// Axial force S_0 in the drawing [N], for a beam whose free strain comes from S_0.
   double drawn_tension() const { return -free_strain.of_tension * axial_stiffness; }
   /// Gives the beam the axial force S_0 [N] as drawn.
   void set_drawn_tension(double S_0) { free_strain.of_tension = -S_0 / axial_stiffness; }
@@ -84,7 +81,7 @@ struct BeamProperties {
   double least_bending_stiffness() const {
     return sections ? std::min(sections->bending_1, sections->bending_2) : bending_stiffness;
   }
-  /// The bend whose energy is this per length, in the direction that is softest; 0 where nothing resists it
+  /// The curvature with this energy per length, in the softest direction; 0 where nothing resists bending
   /// [1/m].
   double mean_bend(double energy_per_length) const {
     const double stiffness = least_bending_stiffness();
@@ -95,12 +92,12 @@ struct BeamProperties {
     return least_bending_stiffness() * angle * angle / (2 * length);
   }
   bool is_damped() const { return damping > 0 || mass_damping > 0 || tension_damping > 0; }
-  /// EI where the axis alone bends: in the plane, and round in space; 0 for a beam with torsion, whose
-  /// sections bend about their own axes.
+  /// EI where the axis alone bends: in the plane, and for round sections in space; 0 for a beam with torsion,
+  /// whose sections bend about their own axes.
   double axis_bending_stiffness() const { return sections ? 0 : bending_stiffness; }
 
-  /// Those per drawn length of a beam that is `stretch` times as long as drawn when it is free: its energy is
-  /// that of the unstressed beam, whose curvature is the drawn one over `stretch`.
+  /// Properties per drawn length for a beam that is `stretch` times as long as drawn when it is free. The
+  /// energy is that of the unstressed beam, whose curvature is the drawn one over `stretch`.
   BeamProperties with_free_stretch(double stretch) const {
     BeamProperties p = *this;
     p.axial_stiffness /= stretch * stretch * stretch;

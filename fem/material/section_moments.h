@@ -10,7 +10,7 @@ struct SectionStrain {
   T twist;           ///< about the tangent
 };
 
-/// What a section carries: moments about d1, d2 and the tangent [N m].
+/// Moments of a section about d1, d2 and the tangent [N m].
 template <class T>
 struct SectionMoments {
   T bending_1, bending_2, torque;

@@ -16,23 +16,23 @@ class ConnectorAxis {
 
   ConnectorAxis(const Connector& connector, const Structure& structure, const Mesh& mesh);
 
-  /// (2 D) of both ends; -1 of a point.
+  /// (2 D) Coordinates of both ends; -1 for an end at a point.
   const std::vector<int>& dofs() const { return dofs_; }
   int body(int end) const { return bodies_[end]; }
 
-  /// At a moment: the length |d|, or n . d; its gradient n in d and its rate; and its Hessian in d,
-  /// (1 - n n')/|d|, or 0.
+  /// The line of the connector at one state: its length |d|, or n . d; the gradient n of the length in d, and
+  /// the rate of the length; its Hessian in d, (1 - n n')/|d|, or 0 along a fixed direction.
   struct Line {
     double length, rate;
     Vector n;
     Matrix curvature;
-    Vector rate_gradient;  ///< of the rate in d
+    Vector rate_gradient;  ///< gradient of the rate in d
   };
   Line line(const State& state) const;
 
-  /// Adds a pull N of the ends towards each other to inertia less forces.
+  /// Adds a pull N, which draws the ends together, to inertia less forces.
   void add_pull(const Vector& pull, Eigen::Ref<Eigen::VectorXd> dynamics) const;
-  /// The 2 D x 2 D matrix of a D x D one in d.
+  /// The 2 D x 2 D matrix in both ends, from a D x D matrix in d.
   Eigen::Matrix<double, 2 * D, 2 * D> in_ends(const Matrix& in_d) const;
 
  private:

@@ -4,7 +4,7 @@ namespace nurbeam {
 
 namespace {
 
-// Of the body of a rider, with its offset, whose rider is at s.
+// Drawn position of a rider's body, with its offset, for the rider at s.
 Eigen::Vector3d drawn_body(const Structure& structure, const Rider& rider, double s) {
   const ReferenceCurve& curve = structure.beam_of(rider).curve;
   if (!rider.is_offset() || !curve.has_sections()) return curve.position(s);

@@ -7,8 +7,8 @@
 
 namespace nurbeam {
 
-/// Where the position of a grip stands among the coordinates; nothing for a point in space. A place of a beam
-/// needs a node that stays there: std::invalid_argument, with `what` takes hold, where the mesh has none.
+/// First position coordinate of a grip; nothing for a point in space. A place of a beam needs a node that it
+/// keeps: throws std::invalid_argument where the mesh has none; the message begins with `what`.
 std::optional<int> grip_position(const Structure& structure, const Mesh& mesh, const Grip& grip,
                                  const std::string& what);
 

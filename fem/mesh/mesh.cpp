@@ -7,7 +7,7 @@ namespace nurbeam {
 
 namespace {
 
-// Numbers the coordinates, beam by beam, then what is left of riders and bodies.
+// Numbers the coordinates beam by beam, then those of riders and bodies that are left.
 class Numbering {
  public:
   Numbering(const Structure& structure, const MeshPlan& plan) : structure_(structure), plan_(plan) {
@@ -60,7 +60,7 @@ class Numbering {
     return nodes;
   }
 
-  // Among nodes in order.
+  // Inserts a node into nodes ordered by s.
   static void insert(const MeshNode& node, std::vector<MeshNode>& nodes) {
     nodes.insert(
         std::upper_bound(

@@ -29,7 +29,7 @@ Chart choose_chart(const Beam& beam, const MeshPlan& plan, const MeshSpan& span,
   return chart;
 }
 
-// The drawn slope before a node minus that after it, for the element before it.
+// The drawn slope before a node minus the drawn slope after it, for the element before the node.
 template <int D>
 Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& node) {
   const bool is_break = beam.curve.segment_at(node.s, true) != beam.curve.segment_at(node.s);
@@ -54,14 +54,14 @@ std::array<int, element_size<D>> dofs_of(const Mesh& mesh, const MeshSpan& span)
   return dofs;
 }
 
-// Where they are not those of the drawing.
+// The section charts that the plan has for a span; null where they are those of the drawing.
 const MeshPlan::SectionCharts* charts_in(const MeshPlan& plan, const MeshSpan& span) {
   for (const MeshPlan::SectionCharts& now : plan.section_charts)
     if (now.beam == span.beam && now.s_a == span.s_a && now.s_b == span.s_b) return &now;
   return nullptr;
 }
 
-// `same`: the element in another mesh, if it was there.
+// The sections of an element. `same`: the same element in another mesh, null if it was not there.
 TwistElement twist_of(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam, const Mesh* other,
                       const MeshElement<3>* same) {
   const MeshPlan::SectionCharts* now = charts_in(mesh.plan, *e.span);
@@ -74,7 +74,7 @@ TwistElement twist_of(const Mesh& mesh, const MeshElement<3>& e, const Beam& bea
   return {beam.curve, beam.properties, chart, s_a, s_b, ends};
 }
 
-// `same`: as twist_of has it.
+// The sections of an element with their coordinates; null without torsion. `same`: see twist_of.
 std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<3>& e, const Beam& beam,
                                             const Mesh* other, const MeshElement<3>* same) {
   if (!beam.has_torsion()) return nullptr;
@@ -88,7 +88,7 @@ std::unique_ptr<const MeshTwist> make_twist(const Mesh& mesh, const MeshElement<
   return std::make_unique<const MeshTwist>(MeshTwist{dofs, twist_of(mesh, e, beam, other, same)});
 }
 
-// Whether both are on one segment that is drawn alike, and made of the same.
+// Whether an element and a span lie on one segment that is drawn alike, with equal properties.
 template <int D>
 bool axis_is(const MeshElement<D>& e, const MeshSpan& span, const Chart& chart, const ReferenceCurve& curve,
              const BeamProperties& properties) {
@@ -98,8 +98,8 @@ bool axis_is(const MeshElement<D>& e, const MeshSpan& span, const Chart& chart, 
          e.element.properties() == properties;
 }
 
-// Whether a segment is drawn alike, and home nodes from before it to behind it are as far from its start:
-// then so are corresponding places on it.
+// Whether two beams draw a segment alike and divide it alike: its home nodes, and the next ones on both
+// sides, lie equally far from its start. Corresponding places on it then do too.
 bool divided_alike(const Beam& beam, const Beam& other, int segment) {
   if (segment < 0) return false;
   const double start = beam.curve.breaks()[segment], end = beam.curve.breaks()[segment + 1],
@@ -119,7 +119,8 @@ class SameElements {
 
   const Mesh* mesh() const { return like_ ? &like_->mesh : nullptr; }
 
-  // Of a neighbouring model that draws it alike: in a mesh with as many.
+  // The counterpart of a fixed element, or null. In a neighbouring model, which must have as many elements
+  // and draw this one alike, the index finds it; else the span does.
   const MeshElement<D>* find(std::size_t index, std::size_t count, const MeshSpan& span, const Chart& chart,
                              const Beam& beam) {
     if (!like_) return nullptr;
@@ -146,8 +147,8 @@ class SameElements {
   std::size_t next_ = 0;
 };
 
-// The ends of a fixed element, or of the first one of the equal parts of a line that is drawn evenly, if it
-// is one of these: all that is computed of them is the same, but for the round-off of where they are.
+// The ends of a fixed element. If it is one of the equal parts of an evenly drawn line: the ends of the first
+// such part, as all that is computed from the ends is equal but for the round-off of the places.
 std::array<double, 2> first_alike(const ReferenceCurve& curve, const Chart& chart, const MeshSpan& span) {
   const int j = chart.segment;
   if (j < 0 || chart.constant_weights || curve.metric() != Metric::arc_length || !curve.is_uniform_line(j))
@@ -159,8 +160,8 @@ std::array<double, 2> first_alike(const ReferenceCurve& curve, const Chart& char
   return {start, start + part};
 }
 
-// Puts the numbers of elements side by side, eight of a beam at a time as they follow one another, in the
-// order of their batch. Where they are so in another mesh they stay there.
+// Puts the numbers of elements side by side: eight at a time that follow one another on a beam, in the order
+// of their batch. Elements that stand so in another mesh already stay there.
 template <int D>
 class ByEights {
  public:
@@ -172,7 +173,7 @@ class ByEights {
     if (group_.size() == FixedLanes::lanes) close();
   }
 
-  /// The element of the eight before the present ones that the next one of that beam stands as; null: none.
+  /// The element in the last group of eight whose lane the next element of this beam takes; null: none.
   const MeshElement<D>* counterpart(int beam) const {
     const std::size_t lane = group_.size();
     return lane < last_.size() && last_[lane]->span->beam == beam ? last_[lane] : nullptr;
@@ -193,8 +194,8 @@ class ByEights {
   std::vector<MeshElement<D>*> group_, last_;
 };
 
-// The element of a span, with the numbers of another one of its beam, `counterpart`, if they are the same, or
-// of `same`, as twist_of has it; both may be null.
+// The element of a span. `counterpart`: another element of its beam, whose numbers are reused where they are
+// equal; `same`: see twist_of. Both may be null.
 template <int D>
 BeamElement<D> fixed_element(const Beam& beam, Chart chart, const MeshSpan& span,
                              const MeshElement<D>* counterpart, const MeshElement<D>* same) {

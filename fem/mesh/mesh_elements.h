@@ -24,21 +24,21 @@ struct MeshElement {
   const MeshSpan* span;
   int index;                              ///< of the span
   std::array<int, element_size<D>> dofs;  ///< global coordinates; -1 where a fixed end has none
-  /// Of the slope at the right end from the node's, which is the one of the element after it: the small angle
-  /// of the drawing there, kept so that the drawn shape is exact. Fixed in space, so only to first order of
-  /// the angle under rotation.
+  /// Offset of the slope at the right end from the node's slope, which belongs to the element after it: the
+  /// small angle of the drawing there, kept so that the drawn shape is exact. It is fixed in space, so under
+  /// rotation it is right only to first order of the angle.
   Eigen::Matrix<double, D, 1> slope_offset;
   BeamElement<D> element;
-  std::unique_ptr<const MeshTwist> twist = nullptr;  ///< of a beam with torsion
+  std::unique_ptr<const MeshTwist> twist = nullptr;  ///< on a beam with torsion, else null
 
-  /// s as the element counts it: on a ring without the turns by which it is away.
+  /// Place s as the element counts it: on a ring without the full turns in between.
   double local(const ElementVector<D>& q_element, double s) const {
     using Layout = ElementLayout<D>;
     return element.curve().unrolled(s, (q_element[Layout::place(0)] + q_element[Layout::place(1)]) / 2);
   }
 };
 
-/// What constraints and forces see of a structure: its mesh and its elements.
+/// The mesh of a structure and its elements, as constraints and forces see them.
 template <int D>
 struct MeshedBeams {
   const Structure& structure;
@@ -50,14 +50,14 @@ struct MeshedBeams {
   }
 };
 
-/// The elements of a mesh, in the order of its spans. The structure and these spans must outlive them. What
-/// those of another mesh of the same structure have in common with them is taken from these, and what they
-/// have in common with those of one mesh of a neighbouring structure.
+/// The elements of a mesh, in the order of its spans. The structure and these spans must outlive them.
+/// `like`: another mesh of the same structure, or a mesh of a neighbouring structure. Numbers that elements
+/// have in common with elements of that mesh are taken from there.
 template <int D>
 std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh& mesh,
                                           const std::optional<MeshedBeams<D>>& like = {});
 
-/// First of the coordinates of its nodes where these follow one another, else -1.
+/// First of the nodal coordinates where they follow one another, else -1.
 template <int D>
 int first_coordinate(const MeshElement<D>& e) {
   for (int k = 1; k < ElementLayout<D>::nodal; ++k)
@@ -65,7 +65,7 @@ int first_coordinate(const MeshElement<D>& e) {
   return e.dofs[0];
 }
 
-/// The rates of its nodes.
+/// Rates of the element's nodal values.
 template <int D>
 ElementNodes<D> node_rates(const MeshElement<D>& e, const Eigen::VectorXd& v) {
   ElementNodes<D> rates;
@@ -73,7 +73,7 @@ ElementNodes<D> node_rates(const MeshElement<D>& e, const Eigen::VectorXd& v) {
   return rates;
 }
 
-/// The axial strain without axial force of an element's beam, as State::load has it.
+/// The free strain of an element's beam, as State::load scales it.
 template <int D>
 double free_strain(const MeshElement<D>& e, const State& state) {
   const FreeStrain& strain = e.element.properties().free_strain;
@@ -91,22 +91,23 @@ ElementState<D> gather(const MeshElement<D>& e, const State& state) {
   if (state.sides.size() > 0) x.taut = state.sides[e.index] != 0;
   return x;
 }
-/// Without rates.
+/// Coordinates of one element without rates.
 template <int D>
 ElementVector<D> gather(const MeshElement<D>& e, const Eigen::VectorXd& q);
 
-/// Whether two elements of one mesh of neighbouring models have the same axis, to round-off: on one segment
-/// that both draw alike, with equal properties; if ends move, wherever on it they are at corresponding
-/// places.
+/// Whether two elements of one mesh of neighbouring models have the same axis, to round-off. They lie on one
+/// segment that both models draw alike, with equal properties. Elements with moving ends are compared at
+/// corresponding places, anywhere on the segment.
 template <int D>
 bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other, const Beam& beam,
                const Beam& other_beam);
 
-/// Those of an element of a beam with torsion.
+/// Coordinates and rates of the sections of an element of a beam with torsion.
 TwistState gather_twist(const MeshElement<3>& e, const State& state);
 TwistLayout::Coordinates gather_twist(const MeshElement<3>& e, const Eigen::VectorXd& q);
 
-/// Position and material velocity fields at one material point; on a ring s may be any full turns away.
+/// Position and material velocity fields at one material point; on a ring s may be any number of full turns
+/// away.
 template <int D>
 struct MaterialPoint {
   Eigen::Matrix<double, D, 1> r, rs, rss;            ///< [m], [-], [1/m]
@@ -116,7 +117,7 @@ struct MaterialPoint {
 template <int D>
 MaterialPoint<D> material_point(const MeshElement<D>& e, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                 double s);
-/// That of an element with fixed ends at the point of these shape functions.
+/// The material point of an element with fixed ends where the shape functions were evaluated.
 template <int D>
 MaterialPoint<D> material_point(const ElementState<D>& x, const ShapeFunctions<double>& shape);
 

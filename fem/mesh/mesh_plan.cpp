@@ -7,7 +7,7 @@ namespace nurbeam {
 
 namespace {
 
-// Home node, but none at an end, that gives way to a moving node at s, or -1.
+// The home node that gives way to a moving node at s, or -1; a node at an end never does.
 int node_to_replace(const Beam& beam, double s) {
   const int h = beam.home_interval(s);
   const auto at = [&](int i) { return beam.home_place(i); };
@@ -23,9 +23,9 @@ int node_to_replace(const Beam& beam, double s) {
   return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
 }
 
-// A moving node changes the stored energy a little with its place, and that little is a force on the body:
-// one that is as light as this beside its element is dragged about by it. What kink its weight makes is as
-// small.
+// Whether a body is too light for a moving node. The stored energy changes a little with the place of a
+// moving node, which is a force on the body. A body this light beside its element would be dragged about by
+// that force. The kink that its weight makes is as small.
 bool too_light_for_node(const Structure& structure, const Rider& rider) {
   constexpr double light = 0.01;
   const Beam& beam = structure.beam_of(rider);

@@ -11,21 +11,21 @@ namespace nurbeam {
 enum class Carried {
   node,     ///< a moving node of the beam: the elements on both sides change length
   point,    ///< a point sigma of the mesh, r_body = r(sigma): near an end of the beam or a permanent node
-  stopped,  ///< as point, held at the end
+  stopped,  ///< a point of the mesh, held at the end of the beam
   free      ///< the body has left the beam
 };
 
-/// Which home nodes of a beam are there.
+/// The home nodes of a beam that are present.
 struct BeamPlan {
   std::vector<bool> present;
 };
 
-/// Which nodes are there, between two length-control events.
+/// The plan: which home nodes are present and how each rider is carried, between two changes of the mesh.
 struct MeshPlan {
   std::vector<BeamPlan> beams;
   std::vector<Carried> modes;   ///< per rider
   std::vector<double> places;   ///< s of each rider when the plan is made [m]
-  std::vector<bool> held = {};  ///< per rider: at its place, until its release; empty: none
+  std::vector<bool> held = {};  ///< per rider: held at its place until its release; empty: none
   /// Constant weights by beam and (s_a, s_b), for elements whose weights a merge or split has set.
   struct Weights {
     int beam;
@@ -33,8 +33,8 @@ struct MeshPlan {
     std::array<double, 4> w;
   };
   std::vector<Weights> weights;
-  /// Charts of the sections of the element by beam and (s_a, s_b), and its turn, where they are no longer
-  /// those of the drawing (TwistElement).
+  /// Section charts of an element by beam and (s_a, s_b), with its turn, where they are no longer those of
+  /// the drawing (TwistElement).
   struct SectionCharts {
     int beam;
     double s_a, s_b;
@@ -42,9 +42,9 @@ struct MeshPlan {
     double turn;
   };
   std::vector<SectionCharts> section_charts;
-  /// Per rider: with which a body that followed a section has left it [rad/s]; empty: none.
+  /// Per rider: the spin with which a body that followed a section has left it [rad/s]; empty: none.
   std::vector<double> spins = {};
-  /// Per stop of the model: a body rests against it; empty: none.
+  /// Per stop of the model: whether a body rests against it; empty: none.
   std::vector<bool> closed = {};
 
   bool is_closed(int stop) const { return stop < static_cast<int>(closed.size()) && closed[stop]; }
@@ -54,11 +54,11 @@ struct MeshPlan {
 
 /// What becomes of a home node when a rider comes to it.
 enum class Passing {
-  as_node,   ///< it is removed before the rider, and returns behind it
-  as_point,  ///< it stays: the rider passes it as a point of the mesh
-  gives_way  ///< it stays as long as it can: a point cannot carry the kink of a discontinuous slope
+  as_node,   ///< the node is removed before the rider, and returns behind it
+  as_point,  ///< the node stays: the rider passes it as a point of the mesh
+  gives_way  ///< the node stays as long as it can: a point cannot carry the kink of a discontinuous slope
 };
-/// Of a home node that is no hinge and no corner.
+/// The passing of a home node that is neither hinge nor corner.
 Passing passing(const Rider& rider, const HomeNode& node);
 
 /// Nearness to a beam end, in home element lengths, at which a rider is carried as a point; it becomes a node
@@ -66,14 +66,15 @@ Passing passing(const Rider& rider, const HomeNode& node);
 inline constexpr double end_zone = 0.2;
 /// Distance of two riders on a beam, in home element lengths, at which they count as having met.
 inline constexpr double meeting_distance = 0.05;
-/// The same on a rigid guide, where there are no elements between them.
+/// Distance of two riders on a rigid guide at which they count as having met, in home intervals, as there are
+/// no elements between them.
 inline constexpr double touching_distance = 3e-6;
-/// Nearness to a permanent node at which a rider becomes a point (or that node gives way) and, larger, a node
-/// again, in home element lengths.
+/// Nearness to a permanent node, in home element lengths, at which a rider becomes a point (or the node gives
+/// way), and the larger one at which it becomes a node again.
 inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
 
-/// Whether a rider at s is carried as a point: it is to be, its beam is a rigid guide, its body is too light
-/// for a node, or a node that it passes as a point is within `reach` home element lengths.
+/// Whether a rider at s is carried as a point: because it is described so, its beam is a rigid guide, its
+/// body is too light for a node, or a node that it passes as a point is within `reach` home element lengths.
 bool near_as_point(const Structure& structure, const Rider& rider, double s, double reach);
 
 /// The drawn mesh with every rider at its start: the home node nearest to it gives way to the moving

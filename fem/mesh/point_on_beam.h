@@ -17,7 +17,7 @@ struct PointShape {
   PointField<D> slope() const { return {d1, nodes}; }
 };
 
-/// Its second derivative by the material too.
+/// Position and slope at a material point, and the derivative of the slope by s.
 template <int D>
 struct CurvedPointShape : PointShape<D> {
   std::array<Jet, 4> d2;
@@ -25,7 +25,7 @@ struct CurvedPointShape : PointShape<D> {
   PointField<D> slope_s() const { return {d2, this->nodes}; }
 };
 
-/// At material point s of the element, for the coordinates q.
+/// Shape of the element's material point at s, for the coordinates q.
 template <int D>
 CurvedPointShape<D> point_shape(const MeshElement<D>& e, const Eigen::VectorXd& q, double s) {
   const ElementVector<D> x = gather<D>(e, q);
@@ -69,7 +69,7 @@ class PointOnBeam {
   }
 
  private:
-  // What an element has at a node of its own that does not move.
+  // The shape at a fixed node of the element itself.
   static PointShape<D> at_node(int node) {
     PointShape<D> shape;
     shape.value[2 * node] = shape.d1[2 * node + 1] = 1;
@@ -78,7 +78,7 @@ class PointOnBeam {
 
   int element_;
   double s_;                            // [m]
-  std::optional<PointShape<D>> fixed_;  // where that does not change with the element's ends
+  std::optional<PointShape<D>> fixed_;  // where the shape does not change with the element's ends
 };
 
 }  // namespace nurbeam

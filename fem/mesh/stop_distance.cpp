@@ -8,8 +8,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Where a sliding body meets others: its own place, or that of its node where it hangs beside the beam; -1
-// where it has neither.
+// First position coordinate of the point at which a sliding body meets others: the body's own, or its node's
+// where the body hangs beside the beam; -1 where there is no such node.
 int meeting_place(const Structure& structure, const Mesh& mesh, int rider) {
   const Rider& of = structure.riders[rider];
   if (!of.is_offset()) return mesh.bodies[of.body];
@@ -19,7 +19,7 @@ int meeting_place(const Structure& structure, const Mesh& mesh, int rider) {
 
 }  // namespace
 
-// Between the places of the drawn beam, and its derivatives by them.
+// Length of the chord between two places of the drawn beam, with its derivatives by the places.
 struct StopDistance::Chord {
   double length;
   std::array<double, 2> d1;

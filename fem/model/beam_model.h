@@ -7,7 +7,7 @@
 
 namespace nurbeam {
 
-/// All that does not change during a run: the structure, what holds it and what acts on it.
+/// A model: all that does not change during a run, which is the structure, its constraints and its forces.
 ///
 /// A plain value; ModelBuilder makes one whose parts fit.
 struct BeamModel : Structure {

@@ -37,8 +37,8 @@ std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& div
   return home;
 }
 
-// What pulls a taut string aslant gives it a kink, within the reach sqrt(EI/S) of its bending: where elements
-// are much longer than that, a slope without a kink would be the coarser picture. No body slides over a kink.
+// A load across a taut string makes a kink, rounded within the reach sqrt(EI/S) of bending. Where elements
+// are much longer than this reach, a continuous slope would be the coarser model. No body slides over a kink.
 void allow_kinks(BeamModel& model, int b) {
   constexpr double short_reach = 0.02;  // of an element
   Beam& beam = model.beams[b];
@@ -133,7 +133,7 @@ double ModelBuilder::place(int b, double s) const {
   return std::min(s, checked_beam(b).curve.length());
 }
 
-// One that can be held and loaded.
+// Place on a beam that can be held and loaded, not on a guide.
 double ModelBuilder::elastic_place(int b, double s) const {
   if (checked_beam(b).rigid)
     refuse("beam \"" + model_.beams[b].name + "\" is a rigid guide: it is neither held nor loaded");

@@ -6,31 +6,32 @@
 
 namespace nurbeam {
 
-/// How a beam is cut into elements, between breaks of the drawing, supports and riders: `elements` in all,
-/// spread in proportion to length.
+/// The division of a beam into `elements` in all. They are spread in proportion to length between breaks of
+/// the drawing, supports and riders.
 struct Division {
   int elements = 20;
 };
 
-/// Makes a model part by part, whose parts fit: nodes where breaks, supports and riders are, indices that
-/// exist, places on their beams. Places are reference arc lengths [m]; one beyond a beam's end is at the end.
+/// Makes a model part by part, so that its parts fit: nodes where breaks, supports and riders are, indices
+/// that exist, places on their beams. Places are reference arc lengths [m]; a place beyond a beam's end is
+/// moved to the end.
 ///
-/// All functions throw std::invalid_argument, with the value and the rule, for what cannot be.
+/// All functions throw std::invalid_argument, with the value and the rule, for impossible values.
 class ModelBuilder {
  public:
-  /// In the plane (2) or in space (3), with gravity [m/s^2].
+  /// An empty model in the plane (2) or in space (3), with gravity [m/s^2].
   explicit ModelBuilder(int dimension, const Eigen::Vector3d& gravity = {0, 0, 0});
 
-  /// Each returns the number of the beam in the model. With BeamProperties::sections it has torsion; a curve
+  /// Adds a beam and returns its number in the model. With BeamProperties::sections it has torsion; a curve
   /// without sections then gets those of an Orientation{}.
   int add_beam(ReferenceCurve curve, const Section& section, const Material& material,
                Division division = {});
   int add_beam(ReferenceCurve curve, const BeamProperties& properties, Division division = {});
-  /// As it is, with its home nodes.
+  /// Adds a beam unchanged, with its home nodes.
   int add_beam(Beam beam);
-  /// A rigid guide: bodies slide along the drawn curve itself.
+  /// Adds a rigid guide: bodies slide along the drawn curve itself.
   int add_guide(ReferenceCurve curve);
-  /// To change a beam's name and rules before build().
+  /// Gives access to a beam's name and rules before build().
   Beam& beam(int i);
 
   /// Holds the position.
@@ -41,23 +42,24 @@ class ModelBuilder {
   ModelBuilder& guide(int beam, double s, const Eigen::Vector3d& along);
   /// Holds position and roll of a beam with torsion.
   ModelBuilder& fork(int beam, double s);
-  /// Joins two beams; a rigid rider keeps their angle, and with torsion the orientation of their sections.
+  /// Joins two beams; a rigid joint keeps their angle, and with torsion the relative orientation of their
+  /// sections.
   ModelBuilder& join(int beam_a, double s_a, int beam_b, double s_b, bool rigid = false);
 
-  /// Return the number of the body.
+  /// Adds a body and returns its number.
   int add_body(std::string name, double mass);
-  /// One that no rider places.
+  /// Adds a body that no rider places.
   int add_body(std::string name, double mass, const Eigen::Vector3d& position,
                const Eigen::Vector3d& velocity = {0, 0, 0});
-  /// Puts a body on a beam, to slide along it; returns the rider, to change how.
+  /// Puts a body on a beam, to slide along it; returns the rider, so that its settings can be changed.
   Rider& slide(int body, int beam, double s, double speed = 0);
 
   /// Leads a beam through an eyelet: a ring that stands at a point, without mass and friction. Returns the
-  /// rider, to change how.
+  /// rider, so that its settings can be changed.
   Rider& lead_through(std::string name, const Eigen::Vector3d& position, int beam, double s);
 
-  /// Fastens something between two ends, as long as drawn; bodies must have their riders before. Returns it,
-  /// to change how.
+  /// Connects two ends with a connector as long as drawn; bodies must have their riders before. Returns the
+  /// connector, so that its settings can be changed.
   Connector& connect(const Grip& from, const Grip& to, ConnectorType type, double stiffness = 0);
 
   /// A dead force [N] or moment [N m] at a place.
@@ -71,7 +73,7 @@ class ModelBuilder {
 
  private:
   struct Part {
-    bool divided;  // has its home nodes
+    bool divided;  // whether the home nodes have been made
     Division division;
   };
   double place(int beam, double s) const;
@@ -83,9 +85,9 @@ class ModelBuilder {
   std::vector<Part> parts_;
 };
 
-/// Says at the home nodes of a model what its supports, riders, connectors and masses hold there, as build()
-/// does; a string may have a kink where connectors or masses are. Throws
-/// std::invalid_argument where one has no node.
+/// Marks the home nodes of a model with what its supports, riders, connectors and masses hold there, as
+/// build() does. A string may get a kink where connectors or masses are. Throws std::invalid_argument where a
+/// place has no node.
 void mark_held_nodes(BeamModel& model);
 
 }  // namespace nurbeam

@@ -12,7 +12,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// Of matrices of a beam and their factors.
+// Number of steps whose matrices of a beam, with factors, fit into memory.
 std::size_t steps_ahead_within_memory(const State& state) {
   constexpr double bytes = 64e6, of_an_unknown = 2000;
   const double size = of_an_unknown * static_cast<double>(state.q.size() + state.lambda.size());
@@ -25,14 +25,15 @@ void singular_step() {
   throw std::runtime_error("a derivative cannot follow a step whose matrix is singular");
 }
 
-// Of a step, by each parameter, from the tangents at its start: that of the system's step limit where this
-// has shortened it, or its part of what is left to the next time of the run; none where it lands on an event.
+// Derivatives of the length of a step by each parameter, from the tangents at its start. A step shortened by
+// the system's step limit changes as the limit does. Another step is a part of the time that is left to the
+// next time of the run. A step that lands on an event gets zeros here.
 Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) const {
   const double h = step.after.t - step.before.t, limit = system_->step_limit(step.before);
   if (step.beyond) return Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(parameters_.size()));
   if (step.asked <= limit) return -h / step.rest * times();
   Eigen::RowVectorXd changes(tangents_.parameters());
-  State own = step.before;  // places alone say how long it may be, and their rates
+  State own = step.before;  // the step limit depends on places and their rates alone
   const Shifts shifts = shifts_at(step.before);
   for (Eigen::Index k = 0; k < changes.size(); ++k) {
     const Parameter& parameter = parameters_[static_cast<std::size_t>(k)];
@@ -55,12 +56,13 @@ Eigen::RowVectorXd Sensitivities::changes_of_length(const FollowedStep& step) co
   return changes;
 }
 
-// Whether the state and the parameters decide how long it is: none that leads to the next time of the run.
+// Whether the state and the parameters decide the length of a step; false if it leads to the next time of the
+// run.
 bool Sensitivities::has_own_length(const FollowedStep& step) const {
   return step.beyond || step.asked > system_->step_limit(step.before);
 }
 
-// How the residual changes with t alone, constraints below (n + m), by differences over a part of h.
+// Derivatives of the residual by t alone, constraints below (n + m), by differences over a part of h.
 Vector Sensitivities::rates_with_time(const State& at, double h) const {
   const double shift = 1e-4 * h;
   const Eigen::Index n = at.q.size(), m = at.lambda.size();
@@ -90,7 +92,7 @@ Sensitivities::Longer Sensitivities::by_length(const FollowedStep& step) const {
 void Sensitivities::steps(const FollowedStep& step) {
   const double h = step.after.t - step.before.t;
   state_ = step.after;
-  if (h == 0) return;  // what a body that starts at the end of its beam does there
+  if (h == 0) return;  // start of a body at the end of its beam
   const bool own_length = has_own_length(step);
   if (by_adjoint_ && !own_length) return keep(step);
   if (own_length) carry();
@@ -118,7 +120,7 @@ Eigen::RowVectorXd Sensitivities::times() const {
   return ahead_ && ahead_->is_going ? ahead_->times : tangents_.t;
 }
 
-// One with that system, to be linearised: the first one where that is over, else another.
+// A step with this system, to be linearised: the first one if tangents are over it, else a new one.
 Sensitivities::Ahead::Step& Sensitivities::Ahead::next(const GeneralizedAlpha& settings,
                                                        const BeamSystem& system) {
   if (steps.empty() || !steps.front()->is_over)
@@ -128,7 +130,7 @@ Sensitivities::Ahead::Step& Sensitivities::Ahead::next(const GeneralizedAlpha& s
   return *steps.back();
 }
 
-// Linearises a step, to whose start the tangents come meanwhile, and lets them go to its end.
+// Linearises a step while tangents come to its start, and lets them go over it.
 void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVectorXd& change) {
   const Eigen::RowVectorXd at_end = times() + change;
   if (!ahead_) ahead_.reset(new Ahead{.most = steps_ahead_within_memory(state_)});
@@ -153,7 +155,7 @@ void Sensitivities::carry_over(const KeptSteps::Step& step, const Eigen::RowVect
   });
 }
 
-// Those at the end of the last step ahead.
+// Keeps the tangents at the end of the last step ahead in a record.
 void Sensitivities::keep_tangents(Record& record) {
   const auto keep = [this, &record] { record.tangents = of_states(tangents_); };
   if (ahead_ && ahead_->is_going)
@@ -162,7 +164,7 @@ void Sensitivities::keep_tangents(Record& record) {
     keep();
 }
 
-// The tangents to the end of all steps ahead.
+// Waits until tangents have reached the end of all steps ahead.
 void Sensitivities::arrive() {
   if (!ahead_) return;
   ahead_->going.finish();

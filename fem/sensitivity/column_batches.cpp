@@ -20,7 +20,7 @@ int ColumnBatches<D>::add(const Assembly<D>& of, const MeshElement<D>& element, 
   return index;
 }
 
-// Of each group those that are one element of the mesh stand beside one another.
+// In each group, elements that correspond to one element of the mesh stand beside one another.
 template <int D>
 void ColumnBatches<D>::close(const Assembly<D>& present) {
   std::vector<Added> all = std::exchange(added_, {});
@@ -36,7 +36,7 @@ void ColumnBatches<D>::close(const Assembly<D>& present) {
   }
 }
 
-// Into the batches of their group, a new one where they do not fit into the last.
+// Puts elements into the batches of their group, into a new batch where they do not fit into the last.
 template <int D>
 void ColumnBatches<D>::put(Each begin, Each end, const std::array<int, element_size<D>>& dofs) {
   Group& group = groups_[static_cast<std::size_t>(begin->group)];

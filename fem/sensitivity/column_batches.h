@@ -8,32 +8,33 @@
 
 namespace nurbeam {
 
-/// Elements with fixed ends of many systems of one mesh, evaluated in batches at one state: the forces of
-/// each go into a column, which has those of its system.
+/// Elements with fixed ends of many systems of one mesh, evaluated in batches at one state. The forces of
+/// each element go into the column of its system.
 template <int D>
 class ColumnBatches {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
   using Columns = ResidualDifferences::Columns;
 
-  /// The load of elements that are made of the same: that of the beam in one of the systems.
+  /// The load of a group of elements with equal properties: that on the beam in one of the systems.
   struct Load {
     int beam;
-    Vector load = Vector::Zero();  ///< of set_loads
+    Vector load = Vector::Zero();  ///< from set_loads
     double free_strain = 0;
   };
 
-  /// Adds an element of a system, which is the one with index `now` of the present mesh. Returns the index of
-  /// its load. Precondition: ElementBatch<D>::takes(element.element).
+  /// Adds an element of a system, which corresponds to the element with index `now` of the present mesh.
+  /// Returns the index of its load. Precondition: ElementBatch<D>::takes(element.element).
   int add(const Assembly<D>& of, const MeshElement<D>& element, int now, Eigen::Index column);
-  /// When all have been added: puts them together, with the coordinates that they have in the present mesh.
+  /// Puts all added elements into batches, with their coordinates in the present mesh.
   void close(const Assembly<D>& present);
 
   void set_loads(const State& at);
   const Load& load(int index) const { return groups_[static_cast<std::size_t>(index)].load; }
-  /// Adds their forces under these loads.
+  /// Adds the forces of the elements under these loads.
   void add_forces(const State& at, Columns& forces) const;
-  /// Tells of each element its mechanical energy, with its weight alone.
+  /// Calls tell(column, energy) with the mechanical energy of each element, including its weight but no other
+  /// load.
   void energies(const State& at, const std::function<void(Eigen::Index column, double energy)>& tell) const;
 
  private:
@@ -41,7 +42,7 @@ class ColumnBatches {
     const Assembly<D>* of;
     Load load;
     std::vector<ElementBatch<D>> batches = {};
-    std::vector<Eigen::Index> columns = {};  // of the elements in batches
+    std::vector<Eigen::Index> columns = {};  // columns of the elements in batches
   };
   struct Added {
     int group, now;
@@ -52,7 +53,7 @@ class ColumnBatches {
 
   void put(Each begin, Each end, const std::array<int, element_size<D>>& dofs);
 
-  std::vector<Added> added_;  // until they are in batches
+  std::vector<Added> added_;  // elements that are not in batches yet
   std::vector<Group> groups_;
 };
 

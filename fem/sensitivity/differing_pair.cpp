@@ -10,7 +10,7 @@ namespace nurbeam {
 
 namespace {
 
-// Whether a body is a point of one of these elements, wherever on it, or runs on a guide.
+// Whether a body is carried as a point on one of these elements, or runs on a guide.
 template <int D>
 bool carries_point(const Assembly<D>& assembly, const std::vector<bool>& elements, const State& near) {
   const Mesh& mesh = assembly.mesh();
@@ -24,7 +24,7 @@ bool carries_point(const Assembly<D>& assembly, const std::vector<bool>& element
   return false;
 }
 
-// Those that elements carry.
+// Whether the line loads that elements carry are equal.
 bool have_same_line_loads(const BeamModel& one, const BeamModel& other) {
   return one.gravity == other.gravity &&
          std::equal(
@@ -101,7 +101,7 @@ bool DifferingPair<D>::has_same_free_strains() const {
 
 template <int D>
 bool DifferingPair<D>::has_other_numbers_alone(const Assembly<D>& system) const {
-  constexpr double round_off = 1e-14;  // of slopes, which are of length 1
+  constexpr double round_off = 1e-14;  // of slopes, whose length is 1
   const auto is_alike = [&](const Different& each, const Assembly<D>& side) {
     const MeshElement<D>&own = system.elements()[each.now], &other = side.elements()[each.index];
     return NumberAdjoint<D>::takes(own) && other.element.properties() == own.element.properties() &&

@@ -15,14 +15,14 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// As many whole ones, of six vectors and the four of the place of a matrix.
+// Number of whole steps that fit into memory: six vectors and the four that place a matrix.
 std::size_t steps_within_memory(const State& state) {
   constexpr double bytes = 256e6;
   return static_cast<std::size_t>(
       bytes / (10.0 * sizeof(double) * static_cast<double>(1 + state.q.size() + state.lambda.size())));
 }
 
-// t, q, v, a and lambda one below the other.
+// The unknowns of a state: t, q, v, a and lambda one below the other.
 Vector unknowns_of(const State& state) {
   Vector x(1 + 3 * state.q.size() + state.lambda.size());
   x << state.t, state.q, state.v, state.a, state.lambda;
@@ -38,8 +38,8 @@ void set_unknowns(const Vector& x, State& state) {
   state.lambda = x.tail(state.lambda.size());
 }
 
-// How far to go for derivatives by each of them, in a motion with steps of length h. Speeds are not linear in
-// velocities, of which some may be much less than others.
+// Step of a finite difference for each unknown, in a motion with steps of length h. Speeds are not linear in
+// velocities, some of which may be much less than others.
 Vector steps_of_unknowns(const State& state, const Vector& scale, double h) {
   constexpr double part = 1e-5, of_velocities = 1e-6;
   const auto greatest = [](const auto& values) {
@@ -64,10 +64,10 @@ void add_unknowns(const Eigen::MatrixXd& by, MotionTangents& to) {
   to.lambda += by.bottomRows(to.lambda.rows());
 }
 
-// For more of them numbers of elements take longer than neighbours do.
+// With more adjoints than this, numbers of elements take longer than neighbours do.
 constexpr Eigen::Index few_adjoints = 2;
 
-// (quantities x parameters)
+// (quantities x parameters) The product of adjoints and tangents.
 Eigen::MatrixXd product(const MotionTangents& adjoints, const MotionTangents& tangents) {
   Eigen::MatrixXd sum = adjoints.t.transpose() * tangents.t;
   sum += adjoints.last_step.transpose() * tangents.last_step;
@@ -90,7 +90,7 @@ void Sensitivities::keep(const FollowedStep& step) {
   stretch_->by_time.push_back(-(step.after.t - step.before.t) / step.rest);
 }
 
-// The tangents over all steps, kept ones too, and to the records on the way.
+// Takes tangents over all steps, kept ones too, and to the records on the way.
 void Sensitivities::carry() {
   if (const std::unique_ptr<const Stretch> stretch = std::move(stretch_)) {
     auto record = stretch->records.begin();
@@ -113,8 +113,8 @@ void Sensitivities::ask(Asked asked) {
         return records_[record].extremes && records_[record].extremes->are_shared_by_many();
       });
   if (are_shared_by_many) return carry();
-  // In what a parameter takes over a step: factors; a quantity back over one, without and with factors of its
-  // own; the derivatives of quantities by one state.
+  // Costs in units of one parameter over one step: factors; a quantity back over a step, without and with
+  // factors of its own; the derivatives of quantities by one state.
   constexpr double of_factors = 20, without = 8, with = 2, of_a_record = 50;
   std::size_t last = 0, count = 0;
   for (const std::size_t record : asked_.records)
@@ -164,8 +164,8 @@ MotionTangents::Matrix Sensitivities::through_states(const Quantities& quantitie
   return sum;
 }
 
-// (quantities x parameters) From these records back to where the tangents are; `by_state`: (unknowns x
-// quantities) derivatives by the state of one.
+// Adds derivatives (quantities x parameters) of these records, from the records back to the present place of
+// the tangents. `by_state`: (unknowns x quantities) derivatives by the state of one record.
 void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
                                       const std::function<Eigen::MatrixXd(std::size_t)>& by_state,
                                       MotionTangents::Matrix& sum) {
@@ -178,7 +178,7 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
   const bool by_numbers = sum.rows() <= few_adjoints;
   if (by_numbers) differences_->go_back(*system_, state_, shifts_at(state_), sum.rows());
   const bool are_in_sums = by_numbers && differences_->are_all_in_sums();
-  // The step that the adjoint is at.
+  // The step at which the adjoint is.
   std::size_t present = 0;
   std::optional<State> end;
   double h = 0;
@@ -188,7 +188,7 @@ void Sensitivities::add_through_steps(const std::vector<std::size_t>& records,
     Shifts shifts;
     const auto find_multipliers = [&] { regular = adjoint.find_multipliers(adjoints, mu); };
     const auto find_changes = [&] { shifts = find_residual_changes(*end, same_time); };
-    if (are_in_sums) {  // where there are none
+    if (are_in_sums) {  // there are no changes to find beside the sums
       find_multipliers();
       find_changes();
     } else {

@@ -1,4 +1,4 @@
-// Sensitivities by neighbours whose meshes are of before.
+// Sensitivities by neighbours whose meshes lag behind.
 #include <utility>
 #include <vector>
 
@@ -20,7 +20,7 @@ void Sensitivities::Parameter::catch_up(const MeshedState& at) {
   }
 }
 
-// Before the run goes on otherwise than by steps.
+// Gives all neighbours the mesh of the run, before it goes on otherwise than by steps.
 void Sensitivities::catch_up() {
   const MeshedState at{system_, state_};
   side_by_side(static_cast<int>(parameters_.size()),
@@ -29,7 +29,7 @@ void Sensitivities::catch_up() {
 
 namespace {
 
-// Without elements at nodes of new ones, whose stiffness and inertia have a say in what becomes of these
+// The kept elements without those at nodes of new elements, as their stiffness and inertia affect these
 // nodes.
 std::vector<int> away_from_new_elements(std::vector<int> kept, const BeamSystem& before,
                                         const BeamSystem& behind) {
@@ -45,8 +45,8 @@ std::vector<int> away_from_new_elements(std::vector<int> kept, const BeamSystem&
 
 }  // namespace
 
-// Lets those lag in which nothing differs where the mesh changes, and returns which. `kept`: by the index of
-// an element the same one behind the change, -1 where there is none.
+// Lets neighbours lag that have no difference where the mesh changes, and returns which. `kept`: per element
+// the index of the same one after the change, -1 where there is none.
 std::vector<bool> Sensitivities::let_lag(const MeshedState& before, const BeamSystem& behind,
                                          const std::vector<int>& kept) {
   const auto is_drawn = [](const BeamSystem& system) {
@@ -64,7 +64,8 @@ std::vector<bool> Sensitivities::let_lag(const MeshedState& before, const BeamSy
   return lagging;
 }
 
-// Moves the places of their tangents away from those that correspond (-1), or back to these (1).
+// Moves the places of lagging neighbours in the tangents away from the corresponding ones (-1), or back to
+// them (1).
 void Sensitivities::shift_lagging(const State& at, double part) {
   const Shifts shifts = shifts_at(at);
   for (std::size_t k = 0; k < shifts.size(); ++k)
@@ -72,7 +73,8 @@ void Sensitivities::shift_lagging(const State& at, double part) {
       if (parameters_[k].lags) tangents_.q(place, static_cast<Eigen::Index>(k)) += part * by;
 }
 
-// How the energy that a state has more than before changes by their elements; zero of the others.
+// Derivatives of the energy gain of a state over `before`, in the elements of lagging neighbours; zero for
+// others.
 Eigen::RowVectorXd Sensitivities::energies_of_lagging(const State& at,
                                                       const Eigen::RowVectorXd& before) const {
   Eigen::RowVectorXd gained = differences_->energies(at) - before;
@@ -81,7 +83,8 @@ Eigen::RowVectorXd Sensitivities::energies_of_lagging(const State& at,
   return gained;
 }
 
-// Of a neighbour's state on the system it is one of, as far as places and velocities say it.
+// A neighbour's state beside the run, on its own system or, if it lags, on the run's, in places and
+// velocities.
 Sensitivities::Beside Sensitivities::beside(std::size_t k, const State& at, bool more) const {
   const Parameter& parameter = parameters_[k];
   const NeighbourPair& pair = parameter.pair;

@@ -1,4 +1,4 @@
-// Sensitivities over changes that are linearised: transfers to another mesh, and starts of the integrator.
+// Sensitivities over linearised changes: transfers to another mesh, and starts of the integrator.
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -16,7 +16,7 @@
 
 namespace nurbeam {
 
-// (m) How G a + curvature changes by each parameter, with a as it is.
+// (m) Derivatives of G a + curvature by each parameter, at fixed a.
 MotionTangents::Matrix Sensitivities::curvature_changes(const State& at) const {
   MotionTangents::Matrix changes(at.lambda.size(), tangents_.parameters());
   side_by_side(static_cast<int>(changes.cols()), [&](int k) {
@@ -30,8 +30,8 @@ MotionTangents::Matrix Sensitivities::curvature_changes(const State& at) const {
   return changes;
 }
 
-// (n) How the dynamics at a state change by each parameter, by t and, in some rows, by these tangents of q:
-// of neighbours that lag those of the run's own places.
+// (n) Changes of the dynamics in a state by each parameter, by t and, in some rows, by these tangents of q.
+// Neighbours that lag keep the run's own places.
 MotionTangents::Matrix Sensitivities::residual_changes(const State& at, const MotionTangents::Matrix& q,
                                                        const std::vector<int>& rows) {
   Shifts shifts = shifts_at(at);
@@ -49,7 +49,8 @@ MotionTangents::Matrix Sensitivities::residual_changes(const State& at, const Mo
   return changes;
 }
 
-// On both meshes, all neighbours a step away from the run: those that lag on its own.
+// Takes all neighbours over a transfer, on both meshes, a step away from the run; lagging ones on its own
+// systems.
 std::vector<TransferTangent::Neighbours> Sensitivities::go_over(const MeshedState& at,
                                                                 const FollowedTransfer& transfer) {
   const MeshedState& before = transfer.before;

@@ -12,7 +12,7 @@ namespace nurbeam {
 
 namespace {
 
-// Where a rider that the rest of `at` holds is in a neighbouring model [m].
+// Place in a neighbouring model of a rider that the rest of `at` holds [m].
 double held_place(const MeshedState& at, int rider, const BeamModel& model) {
   const BeamModel& drawn = at.system->model();
   const double s = at.system->mesh().plan.places[rider];
@@ -22,7 +22,7 @@ double held_place(const MeshedState& at, int rider, const BeamModel& model) {
   return corresponding_place(drawn.beam_of(own), s, model.beam_of(other));
 }
 
-/// The home nodes between which others may be placed otherwise.
+/// The home nodes with a fixed place, between which other home nodes may be placed differently.
 std::vector<int> dividing(const Beam& beam) {
   std::vector<int> nodes;
   for (int h = 0; h <= beam.home_intervals(); ++h) {
@@ -39,7 +39,7 @@ bool alike(const HomeNode& a, const HomeNode& b) {
          a.kept == b.kept;
 }
 
-// Home nodes of `beam` as `drawn` has them.
+// Home nodes of `beam`, divided as those of `drawn`.
 std::vector<HomeNode> home_like(const Beam& beam, const Beam& drawn) {
   const std::vector<int> own = dividing(beam), nodes = dividing(drawn);
   bool correspond = own.size() == nodes.size();
@@ -61,8 +61,8 @@ std::vector<HomeNode> home_like(const Beam& beam, const Beam& drawn) {
   return home;
 }
 
-// Those of a rest, for a neighbour that is on its mesh in the charts of the drawing: angles say the same of
-// both, but where the drawing holds them.
+// Section charts of a rest for a neighbour that is on its mesh in the charts of the drawing. In the same
+// charts angles mean the same in both, except where the drawing's chart is kept.
 std::vector<MeshPlan::SectionCharts> charts_like(const MeshedState& at, const BeamSystem& neighbour) {
   const std::vector<MeshElement<3>>&own = at.system->assembly<3>()->elements(),
         &others = neighbour.assembly<3>()->elements();

@@ -7,33 +7,35 @@
 
 namespace nurbeam {
 
-/// Whether two systems have the same nodes and coordinates: that of a model and of a neighbouring one.
+/// Whether two systems, one of a model and one of its neighbour, have the same nodes and coordinates.
 bool same_mesh(const BeamSystem& system, const BeamSystem& neighbour);
 
-/// A neighbouring model with its beams divided as those of `drawn` are: into as many elements between two
-/// places that no element may cross, in the same proportions. Throws std::runtime_error where these places do
-/// not correspond.
+/// A neighbouring model with its beams divided as those of `drawn`: as many elements between two places that
+/// no element may cross, in the same proportions. Throws std::runtime_error where these places do not
+/// correspond.
 std::shared_ptr<const BeamModel> divided_like(std::shared_ptr<const BeamModel> model, const BeamModel& drawn);
 
-/// The plan of a system's mesh for a neighbouring model, with places that correspond. Precondition: sections
-/// have the drawing's charts, and no elements constant weights.
+/// The plan of a system's mesh for a neighbouring model, with corresponding places. Precondition: sections
+/// have the charts of the drawing, and no element has constant weights.
 MeshPlan corresponding_plan(const BeamSystem& system, const BeamModel& neighbour);
 
-/// By how much the places of the riders of a system, which are coordinates, lie elsewhere in two neighbouring
-/// models whose parameter differs by twice `step`.
+/// Shifts of the places of a system's riders, which are coordinates, by the parameter: coordinate and
+/// derivative of its corresponding place, from two neighbouring models whose parameter differs by twice
+/// `step`.
 std::vector<std::pair<int, double>> shifts_of_places(const BeamSystem& system, const State& state,
                                                      const BeamModel& more, const BeamModel& less,
                                                      double step);
 
-/// The riders whose places a system holds, but for those whose motion is prescribed.
+/// Per rider: whether a system holds its place; false for prescribed motions.
 std::vector<bool> held_joints(const BeamSystem& system);
 
-/// Puts bodies of a neighbour that are carried as points on the spans on which those of `at` are, whichever
-/// side of a node they stand on: a run keeps a span until the body passes its end. Precondition: same_mesh.
+/// Moves bodies of a neighbour that are carried as points to the spans of those of `at`, on whichever side of
+/// a node they are: a run keeps a span until the body passes its end. Precondition: same_mesh.
 void stand_on_like_spans(const MeshedState& at, MeshedState& neighbour);
 
-/// The system of a neighbouring model on the mesh of a rest: with the same nodes, sections in its charts, and
-/// riders held at the corresponding places. Throws std::runtime_error where elements have constant weights.
+/// The system of a neighbouring model on the mesh of a rest: with the same nodes, in the charts of its
+/// sections, and with riders held at the corresponding places. Throws std::runtime_error where elements have
+/// constant weights.
 std::unique_ptr<BeamSystem> at_rest_like(const MeshedState& at,
                                          const std::shared_ptr<const BeamModel>& model);
 

@@ -7,16 +7,16 @@
 
 namespace nurbeam {
 
-/// Sums of the residuals of a motion, each times multipliers, and how they change with the numbers of
-/// elements with fixed ends: what many parameters that change nothing else do to a quantity takes one
-/// evaluation of each element.
+/// Sums of the residuals of a motion, each times multipliers, and their derivatives by the numbers of
+/// elements with fixed ends. If many parameters change nothing but such numbers, their effect on a quantity
+/// takes one evaluation of each element.
 template <int D>
 class NumberAdjoint {
  public:
   using Columns = ResidualDifferences::Columns;
 
-  /// Of these elements of a system, which must outlive it, and as many sums as multipliers have columns.
-  /// Precondition: takes all of the elements.
+  /// Sums for these elements of a system, which must outlive this object; `sums`: number of columns of
+  /// multipliers. Precondition: takes all of the elements.
   NumberAdjoint(const Assembly<D>& system, const std::vector<int>& elements, Eigen::Index sums);
 
   static bool takes(const MeshElement<D>& element) {
@@ -27,8 +27,8 @@ class NumberAdjoint {
   Eigen::Index sums() const { return sums_; }
   /// Adds the residual at a state times these multipliers (unknowns x sums).
   void add(const State& at, const Columns& multipliers);
-  /// By how much a sum is greater with the numbers of `more` in the place of an element than with those of
-  /// `less`, in first order.
+  /// Difference of a sum, to first order, between the numbers of `more` and those of `less` in the place of
+  /// an element.
   double difference(Eigen::Index sum, int element, const BeamElement<D>& more,
                     const BeamElement<D>& less) const;
 
@@ -36,7 +36,7 @@ class NumberAdjoint {
   struct Part {
     int beam;
     ElementBatch<D> batch;
-    std::vector<FixedLanes> rates;  // of each sum
+    std::vector<FixedLanes> rates;  // one per sum
   };
   struct Place {
     std::size_t part;
@@ -46,7 +46,7 @@ class NumberAdjoint {
   const Assembly<D>* system_;
   Eigen::Index sums_;
   std::vector<Part> parts_;
-  std::vector<Place> places_;  // of the elements of the system
+  std::vector<Place> places_;  // per element of the system
 };
 
 }  // namespace nurbeam

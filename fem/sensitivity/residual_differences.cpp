@@ -18,8 +18,8 @@ namespace nurbeam {
 
 namespace {
 
-// Shapes, velocities and accelerations to which sections that are not the same answer differently: nodes have
-// nothing to do with each other, and one of the three outweighs all else.
+// States of shape, velocity and acceleration in which unequal sections respond differently: nodes are
+// independent of each other, and one of the three outweighs all else.
 std::vector<State> uneven_states(const SecondOrderSystem& system, const State& near) {
   constexpr double strain = 1e-4, speed = 1e6, acceleration = 1e9;
   State still = near;
@@ -38,7 +38,7 @@ std::vector<State> uneven_states(const SecondOrderSystem& system, const State& n
   return {bent, moving, driven};
 }
 
-// Makes `state` the one at a time that is `later`, with shifted coordinates, times `part`.
+// Sets `state` to `at`, later by part x `later`, with coordinates shifted by part x shift.
 void shift(const State& at, double part, double later, const std::vector<ResidualDifferences::Shift>& shifts,
            State& state) {
   state = at;
@@ -52,7 +52,7 @@ State shifted(const State& at, double part, const std::vector<ResidualDifference
   return state;
 }
 
-// What loads look at.
+// A state with the time and load factor that loads depend on.
 State at_time(const State& at, double later) {
   State state;
   state.t = at.t + later;
@@ -91,14 +91,14 @@ struct ResidualDifferences::In final : Implementation {
   std::optional<NumberAdjoint<D>> adjoint;
   Columns forces;  // more and less of each pair, a column each; zero between calls of find
   Eigen::VectorXd more_dynamics, less_dynamics, more_constraints, less_constraints;  // of a whole pair
-  State general;                 // to which what is not the same answers differently
-  State moved_more, moved_less;  // of find
+  State general;                 // state in which unequal elements respond differently
+  State moved_more, moved_less;  // states of find
 
-  // What is there already of pairs that outlast a change of the mesh.
+  // Data of pairs that outlast a change of the mesh.
   struct Before {
     const In* of;
     const std::vector<bool>* outlasting;
-    const Assembly<D>* system;  // behind the change
+    const Assembly<D>* system;  // after the change
     const std::vector<int>* elements;
   };
 
@@ -111,9 +111,9 @@ struct ResidualDifferences::In final : Implementation {
     const auto outlasts = [&](std::size_t k) { return before && (*before->outlasting)[k]; };
     const std::vector<State> states =
         before ? uneven_states(*before->system, near) : uneven_states(*of.front().more, near);
-    general = states.front();  // bent, and driven as fast as what is bent answers
+    general = states.front();  // bent, and driven as fast as a bent shape responds
     general.a = states.back().a / states.back().a.template lpNorm<Eigen::Infinity>();
-    std::vector<std::vector<bool>> unlike(of.size());  // the elements of each pair
+    std::vector<std::vector<bool>> unlike(of.size());  // per pair: its elements that differ
     side_by_side(static_cast<int>(of.size()), [&](int k) {
       const auto& [more, less, step] = of[static_cast<std::size_t>(k)];
       if (outlasts(static_cast<std::size_t>(k))) return;
@@ -130,7 +130,7 @@ struct ResidualDifferences::In final : Implementation {
     set_batches(before ? *before->system : *pairs.front().more);
   }
 
-  // Those of all pairs that are not in sums.
+  // Sets up the batches, with the elements of all pairs that are not in sums.
   void set_batches(const Assembly<D>& present) {
     batches = {};
     work = 0;
@@ -161,8 +161,7 @@ struct ResidualDifferences::In final : Implementation {
                            pair.coordinates.end());
   }
 
-  // Whether the elements that are alike in a pair have the same loads on both sides, and those in batches the
-  // loads of these.
+  // Whether the loads on both sides of a pair are equal: for all beams, and for the elements in batches.
   bool same_loads(const Sides& pair, const State& above, const State& below) const {
     const auto loads_are = [&](int beam, const Vector& load, double strain) {
       return pair.more->line_load(beam, above) == load && pair.less->line_load(beam, below) == load &&
@@ -180,7 +179,7 @@ struct ResidualDifferences::In final : Implementation {
     });
   }
 
-  // Whether no more differs than elements in batches, between shifted coordinates.
+  // Whether a pair differs only in elements in batches, with shifted coordinates.
   bool is_local(Sides& pair, const std::vector<Shift>& shifts) const {
     if (!pair.apart.empty() || pair.carries_point) return false;
     std::optional<bool>& known = pair.is_local[shifts.empty() ? 0 : 1];
@@ -217,7 +216,7 @@ struct ResidualDifferences::In final : Implementation {
     }
     adjoint.emplace(present, std::vector<int>(elements.begin(), elements.end()), sums);
     set_batches(present);
-    constexpr double of_numbers = 3;  // in what the forces of an element take
+    constexpr double of_numbers = 3;  // relative to the forces of an element
     work += of_numbers * static_cast<double>(sums) * static_cast<double>(elements.size()) /
             static_cast<double>(present.elements().size());
   }
@@ -287,7 +286,7 @@ struct ResidualDifferences::In final : Implementation {
           dynamics.col(column).setZero();
           constraints.col(column).setZero();
         }
-        pair.was_whole = !shifts[k].empty();  // what is due to these is taken off
+        pair.was_whole = !shifts[k].empty();  // the part due to the shifts is taken off
         const double over = 2 * pair.step;
         for (const int i : pair.coordinates) {
           double* const both = &forces(i, 2 * column);
@@ -322,7 +321,7 @@ struct ResidualDifferences::In final : Implementation {
     }
   }
 
-  // What is in no batch, on one side. Ends are often where they were.
+  // Adds the elements in no batch, on one side. Their points are reused where their ends have not moved.
   static void add_apart(Sides& pair, const Assembly<D>& of, const State& state, std::size_t side,
                         Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints) {
     using Layout = ElementLayout<D>;

@@ -89,7 +89,7 @@ void not_alike(const char* what) {
                            " with the parameter");
 }
 
-// The tangent after what `change` makes of the neighbours of a state.
+// The tangent of the state that `change` makes, from the two neighbours of a state before it.
 State Sensitivities::Parameter::change(const State& from, const State& tangent,
                                        const std::function<bool(MeshedState&)>& change) {
   MeshedState above{std::move(more), moved(from, tangent, pair.step)},
@@ -123,7 +123,7 @@ Sensitivities::Sensitivities(const SimulationOptions& options, std::vector<Probe
 
 Sensitivities::~Sensitivities() = default;
 
-// With these tangents by each parameter.
+// Starts with these tangents, one for each parameter.
 void Sensitivities::start_afresh(const MeshedState& at, const std::vector<State>& tangents) {
   tangents_ = MotionTangents::zero(at.state.q.size(), at.state.lambda.size(),
                                    static_cast<Eigen::Index>(tangents.size()));
@@ -158,8 +158,8 @@ Sensitivities::Shifts Sensitivities::shifts_at(const State& at) const {
   return shifts;
 }
 
-// Into the columns of dynamics_ and constraints_, at a state whose time changes too, and whose places of
-// riders are those that correspond, by the shifts that it returns.
+// Finds the derivatives of the residual into dynamics_ and constraints_, in a state whose time changes too,
+// with riders at corresponding places. Returns the shifts to these places.
 Sensitivities::Shifts Sensitivities::find_residual_changes(const State& at, const Eigen::RowVectorXd& time) {
   Shifts shifts = shifts_at(at);
   differences_->find(*system_, at, time, shifts, dynamics_, constraints_);
@@ -167,7 +167,7 @@ Sensitivities::Shifts Sensitivities::find_residual_changes(const State& at, cons
   return shifts;
 }
 
-// What is due to the shifts alone.
+// Takes the part off the residual that the shifts alone cause.
 void Sensitivities::take_off(const Shifts& shifts, const Eigen::SparseMatrix<double>& stiffness) {
   for (std::size_t k = 0; k < shifts.size(); ++k)
     for (const auto& [place, by] : shifts[k]) {
@@ -179,7 +179,7 @@ void Sensitivities::take_off(const Shifts& shifts, const Eigen::SparseMatrix<dou
 
 void Sensitivities::begins(const MeshedState& drawn) {
   const auto kinks_of = [this](const BeamModel& model) {
-    std::vector<double> kinks = kink_times(model);  // where the run comes to them
+    std::vector<double> kinks = kink_times(model);  // kinks as the run comes to them
     kinks.erase(std::lower_bound(kinks.begin(), kinks.end(), end_time_), kinks.end());
     return kinks;
   };
@@ -239,7 +239,8 @@ void Sensitivities::solve_at_rest(const MeshedState& at, const Eigen::SparseMatr
   if (is_static_) factors_ = std::move(factors);
 }
 
-// Tangents are the shifts alone, with which the neighbours of the rest are at corresponding places.
+// Keeps a rest for its adjoint. Tangents are the shifts alone, which put the neighbours at corresponding
+// places.
 void Sensitivities::keep_for_adjoint(const MeshedState& at, const Eigen::SparseMatrix<double>& stiffness) {
   RestAdjoint adjoint(at.state, at.system->coordinate_scale(), stiffness);
   if (!adjoint.regular()) singular_rest();
@@ -309,8 +310,8 @@ std::shared_ptr<const BeamSystem> Sensitivities::neighbour_at(const Record& reco
   return of.lags ? now->replanned(plan, record.meshes->held, system_.get()) : now;
 }
 
-// Where the run has those that are asked for: on a former mesh, of which its own system is gone, where a
-// neighbour has them.
+// Finds the extremes that are asked for in a record. On a former mesh the run's own system is gone, and a
+// neighbour's is used.
 void Sensitivities::hold_extremes(Record& record) {
   if (asked_.of_beams.empty() || record.extremes || parameters_.empty()) return;
   if (record.meshes == meshes_)
@@ -321,7 +322,7 @@ void Sensitivities::hold_extremes(Record& record) {
                             asked_.of_beams);
 }
 
-// What is asked of one but for energies: extremes where the run has them.
+// The snapshot of a record without energies; its extremes stay where the run has them.
 Snapshot Sensitivities::snapshot(const Record& record, const BeamSystem& system, const State& state,
                                  const std::vector<ProbePlace>& probes) const {
   SnapshotContents contents = asked_.contents;
@@ -343,13 +344,14 @@ std::vector<Sensitivities::Neighbours> Sensitivities::neighbours(std::size_t rec
     const double step = parameters_[k].pair.step;
     return Side{neighbour_at(of, k, more), moved(of.state, tangent, more ? step : -step)};
   };
-  const auto of_sides = [&](const auto& work) {  // more and less of each
+  const auto of_sides = [&](const auto& work) {  // more and less of each parameter
     side_by_side(static_cast<int>(2 * parameters_.size()), [&](int i) {
       const auto k = static_cast<std::size_t>(i);
       work(k / 2, k % 2 == 0, k);
     });
   };
-  std::vector<Side> settled;  // together; others one by one, as the systems of former meshes take much room
+  // All at once; without factors one by one, as the systems of former meshes take much memory.
+  std::vector<Side> settled;
   if (of.factors) {
     settled.resize(2 * parameters_.size());
     of_sides([&](std::size_t k, bool more, std::size_t i) { settled[i] = side_of(k, more); });

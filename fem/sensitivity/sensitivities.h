@@ -18,91 +18,89 @@
 /// Derivatives of a run by parameters of its model.
 namespace nurbeam {
 
-/// A model with another value of a parameter, and where it is to be recorded.
+/// A model with another value of a parameter, and its places to be recorded.
 struct Neighbour {
   std::shared_ptr<const BeamModel> model;
   std::vector<ProbePlace> probes;
 };
 
-/// A parameter: the models in which it is greater and less by a step.
+/// A parameter, by the models in which it is greater and less by a step.
 struct NeighbourPair {
   Neighbour more, less;
-  double step;  ///< of the parameter's own unit
+  double step;  ///< in the parameter's own unit
 };
 
-/// Carries the derivatives of a motion, or of a rest, by parameters of its model along with the run: a
-/// tangent for each, of all at once. Or, where many parameters are asked what they do to few quantities, back
-/// from these by adjoints.
+/// Derivatives of a motion, or of a rest, by parameters of its model, carried along with the run: a tangent
+/// for each parameter, all at once. If many parameters and few quantities are asked for, adjoints go back
+/// from the quantities instead.
 ///
-///   - At rest: K dq + G'dlambda = -dR, G dq = -dg, from where in statics each neighbour goes to its own
-///     equilibrium; or RestAdjoint, where nothing but quantities of rests is asked for. Forces are small
-///     differences of great numbers in stiff beams: at an equilibrium they are as small as the loads, so that
-///     neighbours may be further apart than round-off reaches.
-///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end; or StepAdjoint:
-///   steps
-///     whose length does not depend on the state are kept until something else happens, which takes the
-///     tangents over all of them. Back over those that are left at the end of the run go adjoints, to the
-///     tangents where they begin.
+///   - At rest: K dq + G'dlambda = -dR, G dq = -dg. In statics each neighbour goes from there to its own
+///     equilibrium; or RestAdjoint is used, where only quantities of rests are asked for. Forces in stiff
+///     beams are small differences of large numbers. At an equilibrium they are as small as the loads, so
+///     that neighbours may be further apart than round-off reaches.
+///   - Over a step of generalized-alpha: StepTangent, with the matrix of the step's end; or StepAdjoint.
+///     Steps whose length does not depend on the state are kept until another event, at which the tangents go
+///     over all of them. From the end of the run adjoints go back over the remaining steps, to the tangents
+///     at their start.
 ///   - Over a transfer to another mesh: TransferTangent, where it can be linearised.
-///   - Where an integrator starts, accelerations and multipliers are those of q and v: StartTangent.
-///   - Over all else, as a change of the mesh or an impact: half the difference of what the same does to the
-///     states q +- step dq/dp of the neighbours.
-///   - A step that lands on an event is longer by dh, for which the event stays where it is: beyond(end + dh
-///     d(end)/dh) = 0; times of what comes after are later by as much, and later steps shorter, so that the
-///     next time of the run is met again.
-///   - A step that the system's step limit has shortened is longer as this is.
+///   - Where an integrator starts, accelerations and multipliers follow from q and v: StartTangent.
+///   - Over all other changes, such as a change of the mesh or an impact: half the difference of the same
+///     change applied to the states q +- step dq/dp of the neighbours.
+///   - A step that lands on an event is longer by dh, so that the event stays where it is: beyond(end + dh
+///     d(end)/dh) = 0. Later times are later by dh, and later steps shorter, so that the next time of the run
+///     is met again.
+///   - A step that the system's step limit has shortened is longer as the limit is.
 ///
 /// dR is half the difference of the residual of the neighbours at the state of the run, where they differ,
-/// and with the places of riders where they correspond: at the same place in metres of a curve that has
-/// become longer before it, a moving element is strained so far that the cube of its strain counts, which K
-/// knows nothing of. What a run decides - steps of its error control, when the mesh changes - is the same for
-/// the neighbours: derivatives are those of the discrete motion with these decisions.
+/// with riders at corresponding places. At the same place in metres of a curve that has become longer before
+/// it, a moving element would be strained so far that the cube of its strain counts, which K does not
+/// contain. Decisions of the run (steps of its error control, times of changes of the mesh) hold for the
+/// neighbours too: derivatives are those of the discrete motion with these decisions.
 class Sensitivities final : public RunFollower {
  public:
-  /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models that hold
-  /// what has no tangent: friction, buffers, connectors whose length is found.
-  /// `probes`: of the run itself, where neighbours are recorded on the same elements.
-  /// `by_adjoint`: tangents of rests, in statics, and of the last stretch of steps are left out, and
-  /// through_states has what they would do.
+  /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models with parts
+  /// that have no tangent: friction, buffers, connectors whose length is found. `probes`: probes of the run
+  /// itself; neighbours are recorded on the same elements. `by_adjoint`: tangents of rests, in statics, and
+  /// of the last stretch of steps are left out; through_states supplies their effect.
   Sensitivities(const SimulationOptions& options, std::vector<ProbePlace> probes,
                 std::vector<NeighbourPair> parameters, bool by_adjoint = false);
   ~Sensitivities() override;
 
   /// Derivatives of the time of each event of the run, in order, by each parameter [s]; NaN where steps
-  /// decide when: of changes of the mesh.
+  /// decide the time, as for changes of the mesh.
   const std::vector<std::vector<double>>& event_times() const { return event_times_; }
 
-  /// What derivatives have cost, apart from changes of the mesh.
+  /// The cost of derivatives, apart from changes of the mesh.
   struct Work {
-    long tangents = 0;     ///< taken and factorised: one for each step
-    long solves = 0;       ///< with them
-    double residuals = 0;  ///< of whole systems
+    long tangents = 0;     ///< number taken and factorised: one for each step
+    long solves = 0;       ///< number of solutions with tangents
+    double residuals = 0;  ///< number of residuals of whole systems
   };
   const Work& work() const { return work_; }
 
-  /// What is asked of a run: quantities that look at these records, counted from 0, and there at these
-  /// contents, of beams at no more than these parts.
+  /// The request to a run: quantities that depend on these records, counted from 0, with these contents, and
+  /// on no more than these parts of beams.
   struct Asked {
     std::vector<std::size_t> records;
     std::size_t quantities;
     SnapshotContents contents;
     std::vector<BeamPart> of_beams;
   };
-  /// After the run, before what follows: takes tangents over what steps are left where that is less work than
-  /// to go back, and where many places share extremes, which then cannot be followed back.
+  /// States the request; called after the run. Tangents then go over the remaining steps where this is less
+  /// work than adjoints, and where many places share extremes, which adjoints cannot follow.
   void ask(Asked asked);
-  /// Of one parameter.
+  /// Snapshots of the two neighbours of one parameter.
   struct Neighbours {
     Snapshot more, less;
   };
-  /// At the time of such a record, snapshots of the models in which each parameter is greater and less, of
-  /// states step dq/dp away, in statics of their equilibria there. Throws std::runtime_error where these have
-  /// no accelerations, or are not found.
+  /// Snapshots at the time of a record, of the models in which each parameter is greater and less: in states
+  /// step dq/dp away, in statics in their equilibria there. Throws std::runtime_error where these have no
+  /// accelerations, or are not found.
   std::vector<Neighbours> neighbours(std::size_t record) const;
-  /// What quantities are where one record has another snapshot.
+  /// The quantities when one record has another snapshot.
   using Quantities = std::function<Eigen::VectorXd(std::size_t record, const Snapshot& snapshot)>;
-  /// Of the quantities (quantities x parameters), by adjoints: what they change by as the records do, but for
-  /// how their neighbours differ.
+  /// (quantities x parameters) Derivatives of the quantities by adjoints: their change as the records change,
+  /// without the differences between the records' neighbours.
   MotionTangents::Matrix through_states(const Quantities& quantities);
 
   void begins(const MeshedState& drawn) override;
@@ -169,20 +167,20 @@ class Sensitivities final : public RunFollower {
   double end_time_;
   std::vector<ProbePlace> probes_;
   std::vector<Parameter> parameters_;
-  std::optional<ResidualDifferences> differences_;  // of their present systems
+  std::optional<ResidualDifferences> differences_;  // of the present systems of the parameters
   MotionTangents tangents_;
-  MotionTangents::Matrix dynamics_, constraints_;  // change of the residual, by each parameter
+  MotionTangents::Matrix dynamics_, constraints_;  // derivatives of the residual by each parameter
   std::shared_ptr<const BeamSystem> system_;
-  State state_;                       // of the run
-  std::unique_ptr<Stretch> stretch_;  // that tangents_ have not been taken over
+  State state_;                       // state of the run
+  std::unique_ptr<Stretch> stretch_;  // steps over which tangents_ have not been taken yet
   Work work_;
   std::vector<std::vector<double>> event_times_;
   std::deque<Record> records_;
-  std::shared_ptr<const Meshes> meshes_;  // of the neighbours, since the last change
+  std::shared_ptr<const Meshes> meshes_;  // meshes of the neighbours since the last change
   Asked asked_ = {};
-  std::shared_ptr<const Rest> rest_;                // the last one, for its adjoint
-  std::shared_ptr<const EquilibratedKkt> factors_;  // or of its tangent, for its neighbours
-  std::unique_ptr<Ahead> ahead_;  // with the present system; what goes on there looks at the others
+  std::shared_ptr<const Rest> rest_;                // the last rest, for its adjoint
+  std::shared_ptr<const EquilibratedKkt> factors_;  // factors of its tangent, for its neighbours
+  std::unique_ptr<Ahead> ahead_;  // steps ahead with the present system; they use the other members
 };
 
 }  // namespace nurbeam

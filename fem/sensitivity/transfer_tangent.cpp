@@ -22,7 +22,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = MotionTangents::Matrix;
 
-// Beside accelerations as large as that forces are lost in round-off.
+// An acceleration so large that forces are lost in round-off beside it.
 const double vast = std::ldexp(1.0, 300);
 
 State without_motion(const State& state) {
@@ -33,7 +33,7 @@ State without_motion(const State& state) {
   return still;
 }
 
-// Of elements whose ends move or that have torsion, and of all that constraints hold.
+// Rows of elements with moving ends or with torsion, and of all coordinates that constraints hold.
 std::vector<int> rows_that_change_with_shape(const BeamSystem& system) {
   const int n = system.coordinate_count();
   const SparsePattern& pattern = system.tangent_pattern();
@@ -96,7 +96,7 @@ void TransferTangent::for_each_parameter(const Work& work) const {
       static_cast<int>(neighbours_.size()), [&](int k) { work(static_cast<std::size_t>(k)); });
 }
 
-// Half the difference over the step of `of`(parameter, whether it is more), a column for each parameter.
+// Half the difference of `of`(parameter, whether it is more) over the step, a column for each parameter.
 template <class Of>
 TransferTangent::Matrix TransferTangent::rates(Eigen::Index rows, const Of& of) const {
   Matrix rates(rows, static_cast<Eigen::Index>(neighbours_.size()));
@@ -106,7 +106,7 @@ TransferTangent::Matrix TransferTangent::rates(Eigen::Index rows, const Of& of) 
   return rates;
 }
 
-// Where no node is new, what becomes of a motion beside the run's own is linear in it.
+// Interpolates the tangents. Without new nodes the transfer of a motion beside the run's own is linear in it.
 void TransferTangent::interpolate(MotionTangents& tangents) const {
   const bool is_linear = new_nodes(*before_, *system_).empty();
   const auto carried = path_.excess ? balanced : interpolated;
@@ -126,7 +126,7 @@ void TransferTangent::interpolate(MotionTangents& tangents) const {
   });
 }
 
-// Those on points of the mesh, which must lie on the curve.
+// Puts bodies that are points of the mesh on the curve.
 void TransferTangent::put_bodies(const State& at, MotionTangents& tangents) const {
   const Mesh& mesh = system_->mesh();
   const int D = mesh.dimension;
@@ -171,7 +171,8 @@ bool TransferTangent::find_velocities(const Transferred& stage, MotionTangents& 
   return true;
 }
 
-// (1, a column for each parameter) Of what a state behind has more energy than that before.
+// (1, a column for each parameter) Change of the excess of energy of a state after the transfer over the
+// state before.
 TransferTangent::Matrix TransferTangent::energies(const State& at, const MotionTangents& tangents) const {
   return rates(
              1,
@@ -185,7 +186,7 @@ TransferTangent::Matrix TransferTangent::energies(const State& at, const MotionT
          kept_.energies(at);
 }
 
-// By velocities.
+// Conserves the energy by velocities.
 void TransferTangent::keep_energy(const State& at, double excess, MotionTangents& tangents) const {
   const Matrix energy = energies(at, tangents);
   tangents.v += rates(at.v.size(), [&](std::size_t k, bool more) -> Vector {
@@ -218,7 +219,7 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
   const Vector g = force(made.free), Kd = K * made.d, Md = M * made.d;
   const Vector nu = G.transpose().completeOrthogonalDecomposition().solve(-(Kd + made.mu * Md + g));
 
-  // What they change by while d, nu and mu stay.
+  // Changes of the equations while d, nu and mu stay.
   Vector whole = Vector::Zero(n);
   whole(made.free) = made.d;
   State ahead = still, behind = still, driven = still;
@@ -239,15 +240,15 @@ bool TransferTangent::move(const Transferred& stage, const MadeMove& made, Motio
     const BeamSystem& of = more ? *neighbours_[k].more : *neighbours_[k].less;
     return of.constraint_product(moved_along(still, tangents, k, part(k, more)), whole);
   });
-  // Of the energy that is to be brought: nothing where the move does not.
+  // Change of the energy that the move must bring; zero where the move does not bring it.
   Matrix energy = Matrix::Zero(1, tangents.parameters());
   if (made.mu != 0) {
     energy = energies(stage.state, tangents);
     energy += made.d.transpose() * (dg + dKd / 2);
   }
 
-  // Rows and columns of one size: the rank is looked for, as rows of constraints that hold nothing of the
-  // move are zero, and that of the energy where it is not brought.
+  // Rows and columns are scaled to one size, as the rank is determined. Rows are zero of constraints that
+  // hold no part of the move, and of the energy where it is not brought.
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(f + m + 1, f + m + 1);
   matrix.topLeftCorner(f, f) = K + made.mu * M;
   matrix.block(f, 0, m, f) = G;

@@ -10,35 +10,36 @@
 
 namespace nurbeam {
 
-/// A transfer to another mesh (projected), linearised where it has been. With the equations that each of its
-/// stages solves, of velocities v and impulse y, and of a move d with its multipliers nu and mu,
-///   M v + G'y = p,  G v + rate = 0;   (K + mu M) d + g + G'nu = 0,  G d = 0,  g d + d K d / 2 + e = 0,
-/// its tangents are solutions with the same matrices. On the right are changes of M v + G'y, which are those
-/// of a residual at accelerations so large that forces are lost beside them, and of K d, which are those of
-/// (F(q + e d) - F(q - e d)) / 2e, e small: for all parameters at once, by tangents of the run itself and by
-/// differences of residuals of neighbours. Momentum p, energy e and what is interpolated change as those of
-/// neighbours do, and so do velocities that keep the energy.
+/// A transfer to another mesh (projected), linearised. Its stages solve equations of velocities v and impulse
+/// y, and of a move d with multipliers nu and mu:
+///   M v + G'y = p,  G v + rate = 0;   (K + mu M) d + g + G'nu = 0,  G d = 0,  g d + d K d / 2 + e = 0.
+/// Tangents are solutions with the same matrices. On the right are two changes. That of M v + G'y is the
+/// change of a residual at accelerations so large that forces are lost beside them. That of K d is the change
+/// of (F(q + e d) - F(q - e d)) / 2e, e small. Both are found for all parameters at once, by tangents of the
+/// run itself and by differences of residuals of neighbours. Momentum p, energy e and interpolated values
+/// change as they do for neighbours, and so do velocities that conserve the energy.
 class TransferTangent {
  public:
   using Matrix = MotionTangents::Matrix;
 
-  /// Of one parameter that is greater and less by `step`: on the mesh before, and the meshes behind. They lie
-  /// beside the run's own systems where these are theirs.
+  /// The neighbours of one parameter, which is greater and less by `step`: on the mesh before, and the meshes
+  /// after. Neighbours that lag use the run's own systems.
   struct Neighbours {
     MeshedState more_before, less_before;
     std::shared_ptr<const BeamSystem> more, less;
     double step = 0;
   };
-  /// (n, a column for each parameter) how the dynamics of `system` change at a state with the parameter
+  /// (n, a column for each parameter) Change of the dynamics of `system` in a state: with the parameter
   /// itself, with t, and in these rows by these tangents of q.
   using ResidualChanges =
       std::function<Matrix(const State& at, const Matrix& q, const std::vector<int>& rows)>;
 
-  /// What neighbours lack that lie beside the run's own systems, by their elements that are there before and
-  /// behind.
+  /// The part that is missing in neighbours on the run's own systems: that of their elements, which are there
+  /// before and after.
   struct Kept {
-    Matrix momenta;  ///< (n, a column for each parameter) of what is carried over
-    /// (a column for each parameter) Of what a state behind has more energy than that before.
+    Matrix momenta;  ///< (n, a column for each parameter) of the motion that is carried over
+    /// (a column for each parameter) Change of the excess of energy of a state after the transfer over the
+    /// state before.
     std::function<Eigen::RowVectorXd(const State& behind)> energies;
   };
 
@@ -46,8 +47,8 @@ class TransferTangent {
                   const TransferPath& path, std::vector<Neighbours> neighbours, Kept kept,
                   ResidualChanges residual_changes);
 
-  /// Puts q, v, a and lambda of tangents, which have t, to what they are behind it; false where an equation
-  /// is singular.
+  /// Carries q, v, a and lambda of tangents, whose t is set, over the transfer; false where an equation is
+  /// singular.
   [[nodiscard]] bool carry(MotionTangents& tangents) const;
 
  private:
@@ -73,7 +74,7 @@ class TransferTangent {
   std::vector<Momenta> momenta_;
   Kept kept_;
   ResidualChanges residual_changes_;
-  std::vector<int> with_shape_;  // rows of dynamics in which inertia and constraints change with q
+  std::vector<int> with_shape_;  // rows of dynamics whose inertia and constraints change with q
 };
 
 }  // namespace nurbeam

@@ -12,22 +12,23 @@ namespace nurbeam {
 
 enum class WeightRule {
   material,  ///< ALE-RANCF, weights follow the material: one chart and one W per CAD segment
-  constant,  ///< ALE-RANCF, the paper's: four weights that stay with the element
+  constant,  ///< ALE-RANCF of the paper: an element keeps its four weights
   ones       ///< ALE-ANCF: plain cubics in reference arc length
 };
-/// Velocities after a merge: the mass-weighted L2 projection with `standard`, the kept nodes' own else.
+/// Velocities after a merge: the mass-weighted L2 projection with `standard`; otherwise the remaining nodes
+/// keep theirs.
 enum class MergeRule {
-  standard,  ///< material weights: none to choose; constant weights: the paper's rule
+  standard,  ///< material weights leave no choice; constant weights follow the paper's rule
   paper,     ///< Eqs. 31-38 of Ding & Ouyang, for comparison
   ones       ///< all ones, for comparison
 };
 /// How the forces on moving elements follow from the fields (theory.md: forms V and P).
 enum class Form {
   variational,  ///< Euler-Lagrange expressions of T - U with moving limits: conserves energy
-  virtual_work  ///< the papers', for comparison: fem/comparison/virtual_work.h
+  virtual_work  ///< form P, the papers', for comparison: fem/comparison/virtual_work.h
 };
 
-/// A velocity of the material of a beam: of a rigid motion, and along its axis.
+/// An initial velocity of the material of a beam: a rigid motion, and a motion along the axis.
 struct BeamVelocity {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m/s]
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< [rad/s]
@@ -39,28 +40,30 @@ struct Beam {
   std::string name;
   ReferenceCurve curve;
   BeamProperties properties;
-  Section section = {};                          ///< what `properties` was derived from, where they were
-  Material material = {};                        ///< likewise
-  std::optional<SectionStresses> stresses = {};  ///< of a beam with torsion, where its outline is known
+  Section section = {};    ///< the section that `properties` were derived from, if any
+  Material material = {};  ///< the material that `properties` were derived from, if any
+  /// Stress recovery for a beam with torsion whose outline is known.
+  std::optional<SectionStresses> stresses = {};
   WeightRule weights = WeightRule::material;
   MergeRule merge = MergeRule::standard;
   Form form = Form::variational;
-  std::optional<BeamVelocity> velocity = {};  ///< at t = 0; else at rest
+  std::optional<BeamVelocity> velocity = {};  ///< velocity at t = 0; without one the beam is at rest
   /// A guide: the axis stays as drawn, without elements, mass or strain. Its home nodes are the breaks.
   bool rigid = false;
-  std::vector<HomeNode> home;  ///< s increasing, from 0 to the length; of a ring the last is the first again
+  /// s increasing, from 0 to the length; on a ring the last one is the first again.
+  std::vector<HomeNode> home;
 
   bool has_torsion() const { return properties.sections.has_value(); }
-  /// A ring: a closed curve, and no ends.
+  /// A ring is a closed curve without ends.
   bool is_ring() const { return curve.closed(); }
   int home_intervals() const { return static_cast<int>(home.size()) - 1; }
   /// Number in `home` of home node h; on a ring h goes on over the seam, both ways.
   int home_index(int h) const;
-  /// s of home node h; on a ring beyond [0, length) for h over the seam [m].
+  /// Reference arc length s of home node h; on a ring it lies beyond [0, length) for h over the seam [m].
   double home_place(int h) const;
   /// Home node h; on a ring h goes on over the seam.
   const HomeNode& home_node(int h) const { return home[home_index(h)]; }
-  /// The home interval [h, h + 1] that holds s; over the seam on a ring.
+  /// The home interval [h, h + 1] that holds s; on a ring h goes on over the seam.
   int home_interval(double s) const;
   /// Length of the home interval that holds s [m].
   double home_spacing(double s) const;

@@ -10,22 +10,22 @@ namespace nurbeam {
 
 struct Structure;
 
-/// Joins two beams at a place of each, which no body slides over: their material points there stay together
-/// (at the distance they have in the drawing).
+/// A joint of two beams at places that no body slides over: the two material points keep the offset they have
+/// in the drawing.
 struct BeamJoint {
   int beam_a;
   double s_a;  ///< [m]
   int beam_b;
   double s_b;          ///< [m]
-  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle), or where both beams have
-                       ///< torsion the orientation of their sections (JoinedSections); else a hinge
+  bool rigid = false;  ///< the angle between the slopes stays too (HeldAngle); between beams with torsion the
+                       ///< relative orientation of their sections stays (JoinedSections); false: a hinge
   std::string name = {};
-  /// Of a hinge of two beams with torsion: their sections turn against each other about this axis alone,
-  /// which is given as drawn.
+  /// The axis of a hinge of two beams with torsion, as drawn: their sections turn against each other about
+  /// this axis alone.
   std::optional<Eigen::Vector3d> axis = {};
 
   Grip place() const { return Grip::on_beam(beam_a, s_a); }
-  /// "joint.cable.mast", where it has no name of its own.
+  /// The joint's name; without one "joint.cable.mast".
   std::string reaction_name(const Structure& structure) const;
   template <class Visit>
   void for_each_node(Visit&& visit) const {

@@ -14,33 +14,39 @@ enum class ConnectorType {
   spring,
   tension_only,      ///< a dropper, a rope: slack where it is shorter than its free length
   compression_only,  ///< a buffer
-  rod                ///< it keeps its length
+  rod                ///< a rod keeps its length
 };
 
-/// What gives the free length.
+/// The rule that gives the free length.
 enum class ConnectorLength {
   given,
-  as_drawn,  ///< that for which the first end stands, in the equilibrium under all loads, where it was drawn
-  force      ///< that for which it carries a force in that equilibrium, or as drawn where the run starts so
+  /// The free length for which the first end lies where it was drawn, in the equilibrium under all loads.
+  as_drawn,
+  /// The free length for which the connector carries `force` in the equilibrium under all loads, or in the
+  /// drawing where the run starts as drawn.
+  force
 };
 
-/// Joins two ends: with d from the first to the second and its stretch e = |d| - l_0, or n . d - l_0 along a
-/// direction n, it pulls them together with N = k e + c e'.
+/// A connector joins two ends. Let d be the vector from the first end to the second.
+/// The stretch is e = |d| - l_0, or n . d - l_0 along a direction n. The ends are pulled together with
+/// N = k e + c e'.
 ///
-/// Of the types that carry one sign alone, N = max(0, k e + c e') where e > 0, else 0; or the same mirrored.
-/// With a damper N jumps where e comes to 0, at which a step ends: State::memory says where one is taut.
+/// Types that carry one sign alone: tension_only has N = max(0, k e + c e') where e > 0, else 0;
+/// compression_only is its mirror image. With a damper N jumps where e comes to 0, and a step ends there:
+/// State::memory tells which connectors are taut.
 struct Connector {
   std::string name;
   std::array<Grip, 2> ends;  ///< a place of a beam keeps its node
   ConnectorType type = ConnectorType::spring;
-  double stiffness = 0;                           ///< k [N/m]
-  double damping = 0;                             ///< c [N s/m]
-  double length = 0;                              ///< l_0 [m]; where it is to be found, that of the drawing
+  double stiffness = 0;  ///< k [N/m]
+  double damping = 0;    ///< c [N s/m]
+  /// Free length l_0 [m]; where it is to be found, its value in the drawing.
+  double length = 0;
   std::optional<Eigen::Vector3d> direction = {};  ///< n, of unit length
   ConnectorLength length_rule = ConnectorLength::given;
-  double force = 0;  ///< with ConnectorLength::force [N]
+  double force = 0;  ///< for ConnectorLength::force [N]
 
-  /// Of the types that carry one sign: 1 where that is a pull, -1 a push; 0 of the others.
+  /// 1 for a type that only pulls, -1 for one that only pushes, 0 for the others.
   int sign() const {
     return type == ConnectorType::tension_only ? 1 : type == ConnectorType::compression_only ? -1 : 0;
   }
@@ -52,7 +58,7 @@ struct Connector {
             end.beam, end.s, [](HomeNode& node) { node.kept = true; });
   }
   bool jumps() const { return sign() != 0 && damping > 0; }
-  /// Less is none, where its ends are that far apart [m].
+  /// A stretch below this counts as zero, for ends at this distance [m].
   double least_stretch(double distance) const { return 1e-12 * (std::abs(distance) + std::abs(length)); }
 };
 

@@ -7,12 +7,12 @@
 
 namespace nurbeam {
 
-/// What holds beams and bodies, as it is described; what comes of it in a mesh is in fem/constraints.
+/// Descriptions of the constraints on beams and bodies; fem/constraints binds them to a mesh.
 ///
-/// A description offers place(), where what it gives is recorded, reaction_name(structure), and, if it has
-/// them: for_each_node(visit), which calls visit(beam, s, mark) for places that keep a node, mark(home node)
-/// saying why; `from_outside`, where what it gives comes from no other part of the model; `motion`, an
-/// optional table of where it moves what it holds, with rows().
+/// A description offers place(), where its reaction is recorded, and reaction_name(structure).
+/// Optional: for_each_node(visit), which calls visit(beam, s, mark) for places that keep a node, where
+/// mark(home node) records why; `from_outside`, if the reaction comes from no other part of the model;
+/// `motion`, an optional table of prescribed displacements with rows().
 using Constraint = std::variant<Support, BeamJoint, HeldBody>;
 
 }  // namespace nurbeam

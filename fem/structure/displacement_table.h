@@ -7,8 +7,8 @@
 
 namespace nurbeam {
 
-/// A displacement over time: the C1 cubic through its rows, in each component monotone where they are, so
-/// that nothing is overshot and no speed jumps; at rest at the first and the last row and outside.
+/// A displacement over time: a C1 cubic through the rows. Each component is monotone where its rows are, so
+/// that nothing is overshot and no speed jumps. At the first and the last row, and outside, it is at rest.
 class DisplacementTable {
  public:
   using Row = std::pair<double, Eigen::Vector3d>;  ///< (t [s], displacement [m]), t increasing
@@ -19,7 +19,7 @@ class DisplacementTable {
     Eigen::Vector3d value, rate, acceleration;  ///< [m], [m/s], [m/s^2] after t
   };
   using Law = std::function<Motion(double t)>;
-  /// A smooth function in the place of rows, of which there are none.
+  /// A smooth function instead of rows: rows() is then empty.
   explicit DisplacementTable(Law law) : law_(std::move(law)) {}
 
   const std::vector<Row>& rows() const { return rows_; }

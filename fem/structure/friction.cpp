@@ -6,7 +6,7 @@
 namespace nurbeam {
 
 double Friction::stiffness(double mass) const {
-  constexpr double omega = 2 * std::numbers::pi * 100;  // [rad/s] of the body that sticks
+  constexpr double omega = 2 * std::numbers::pi * 100;  // circular frequency of a body that sticks [rad/s]
   return stick_stiffness.value_or(mass * omega * omega);
 }
 

@@ -8,14 +8,14 @@ namespace nurbeam {
 
 struct Structure;
 
-/// Holds a body at a point in space: the ring of an eyelet, through which a beam runs.
+/// A body held at a point in space: the ring of an eyelet, through which a beam runs.
 struct HeldBody {
   int body;
-  Eigen::Vector3d position;  ///< [m]; where the body is drawn elsewhere, State::load takes it there
+  Eigen::Vector3d position;  ///< [m]; a body that is drawn elsewhere moves there as State::load grows to 1
 
   static constexpr bool from_outside = true;
   Grip place() const { return Grip::on_body(body); }
-  /// The name of the body.
+  /// The body's name.
   std::string reaction_name(const Structure& structure) const;
 };
 

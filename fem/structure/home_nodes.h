@@ -6,21 +6,22 @@
 
 namespace nurbeam {
 
-/// What the slopes on both sides of a home node have to do with each other.
+/// The relation between the slopes on both sides of a home node.
 enum class NodeKind : std::uint8_t {
-  smooth,  ///< they are one
-  hinge,   ///< they are free of each other
-  rigid    ///< a corner: the angle between them stays that of the drawing (HeldAngle)
+  smooth,  ///< both are one slope
+  hinge,   ///< the slopes are free of each other
+  rigid    ///< a corner: the angle between the slopes stays as drawn (HeldAngle)
 };
 
-/// What a support holds at a node.
+/// The coordinates that a support holds at a node.
 enum class Hold : std::uint8_t {
   nothing,
   position,
   clamp  ///< position and direction of the slope; its magnitude stays free
 };
 
-/// A place where a beam may have a node; the drawn mesh. Nodes return there when a sliding node has passed.
+/// A home node: a place of the undeformed beam that has a node when no rider is near. The node returns after
+/// a sliding node has passed.
 struct HomeNode {
   double s;                ///< reference arc length [m]
   bool permanent = false;  ///< a break of the drawing, a support or a joint inside the beam: see Passing
@@ -30,11 +31,10 @@ struct HomeNode {
   bool kept = false;    ///< a mass or a connector is here: the node never gives way
 };
 
-/// Intervals of a beam that no element may cross in the drawn mesh: between breaks of the drawing and
-/// supports.
+/// Places that must be nodes of the drawn mesh: breaks of the drawing and supports, in order [m].
 std::vector<double> fixed_places(const ReferenceCurve& curve, const std::vector<double>& support_places);
-/// How many elements each interval gets when `count` are spread in proportion to length. Throws
-/// std::invalid_argument, naming the smallest count, when there are more intervals than elements.
+/// The number of elements of each interval, when `count` are spread in proportion to length.
+/// Throws std::invalid_argument, naming the smallest count, when there are more intervals than elements.
 std::vector<int> spread_elements(const std::vector<double>& places, int count);
 /// Home nodes: each interval divided in arc length into its number of parts, each part longer than the one
 /// before it by `grading` [m] (graded_places); interior places are permanent nodes. Throws

@@ -1,8 +1,8 @@
 #pragma once
 #include <type_traits>
 
-/// NURBEAM_HOOK(name): names_NAME<T>, whether the class T has a member of that name, whatever its kind and
-/// parameters. A class that inherits the name twice cannot say which it means.
+/// NURBEAM_HOOK(name) defines names_NAME<T>: whether class T has a member of that name, of any kind and with
+/// any parameters. A class that inherits the name twice counts as having it.
 #define NURBEAM_HOOK(name)                             \
   struct OtherMember_##name {                          \
     int name;                                          \
@@ -25,11 +25,11 @@ NURBEAM_HOOK(connector);
 
 namespace nurbeam {
 
-/// Whether a class keeps its word on one hook: it is there as it is asked for, or there is nothing of that
-/// name.
+/// Whether a class keeps its word on one hook. An offered hook must exist with the right signature; a hook
+/// that is not offered must not be named at all.
 consteval bool keeps_word(bool offered, bool named, bool fits) { return offered ? named && fits : !named; }
 
-/// What the class of a force or a constraint says that it offers.
+/// The hooks that the class of a force or a constraint declares.
 template <class T>
 inline constexpr auto offers_of = std::remove_cvref_t<T>::offers;
 

@@ -5,8 +5,8 @@ namespace nurbeam {
 
 struct Structure;
 
-/// Where the parts of a structure that remember have their numbers in State::memory: three of each rider with
-/// friction, one of each stop and one of each connector that jumps; -1 of those that remember nothing.
+/// First index in State::memory of each part that remembers: three numbers for a rider with friction, one for
+/// a stop, one for a connector that jumps; -1 for parts without memory.
 struct MemoryPlaces {
   std::vector<int> riders, stops, connectors;
   int size = 0;

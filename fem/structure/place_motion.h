@@ -6,7 +6,7 @@
 
 namespace nurbeam {
 
-/// A prescribed place on a beam over time: by the rows of a table, where the speed jumps, or by a smooth
+/// A prescribed place on a beam over time: the rows of a table, with jumps of the speed, or a smooth
 /// function.
 class PlaceMotion {
  public:
@@ -18,7 +18,7 @@ class PlaceMotion {
   PlaceMotion(TimeTable rows) : rows_(std::move(rows)) {}
   explicit PlaceMotion(Law law) : law_(std::move(law)) {}
 
-  /// (t [s], s [m]), linear between, constant outside; none where there is a function.
+  /// Rows (t [s], s [m]), linear between, constant outside; empty where a function prescribes the place.
   const TimeTable& rows() const { return rows_; }
   Moment at(double t) const {
     if (law_) return law_(t);

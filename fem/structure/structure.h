@@ -14,52 +14,50 @@
 
 namespace nurbeam {
 
-/// A point mass with coordinates of its own: on no beam, on one, or where two cross.
+/// A point mass with coordinates of its own: on no beam, on one, or where two beams cross.
 struct Body {
   std::string name;
   double mass;  ///< [kg]
-  /// Where it starts and how fast, when no rider says so [m], [m/s].
+  /// Position and velocity at the start, when no rider gives them [m], [m/s].
   Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
   double roll_inertia = 0;  ///< about the tangent of a section that it follows [kg m^2]
   double drag_area = 0;     ///< C_d A, of the drag of the air [m^2]
 };
 
-/// What a search for rest does with a sliding body.
+/// The treatment of a sliding body in a search for the static equilibrium.
 enum class StaticPlace {
-  automatic,  ///< a static analysis lets it slide to where it rests, a motion begins with it held where it is
+  automatic,  ///< in a static analysis the body slides to where it rests; before a motion it is held where it
+              ///< is
   held,
   free
 };
 
-/// Ties a body to a moving place on a beam.
+/// A rider ties a body to a moving place on a beam.
 struct Rider {
   int body;
   int beam;
-  double s;                            ///< at t = 0 [m]
+  double s;                            ///< reference arc length at t = 0 [m]
   double speed = 0;                    ///< at t = 0 [m/s]
   std::optional<PlaceMotion> motion;   ///< prescribed s(t)
-  std::optional<double> release = {};  ///< held at s until then [s]
+  std::optional<double> release = {};  ///< the place is held at s until this time [s]
   bool continuous_slope = true;
-  bool leave_at_end = true;  ///< else it stops there
-  /// Of a beam with torsion: the body rolls with the section where it is, at the offset (along d1 and d2)
+  bool leave_at_end = true;  ///< false: the body stops at the end
+  /// For a beam with torsion: the body rolls with the section at its place, at the offset along d1 and d2
   /// from the axis [m].
   bool follows_section = false;
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 
   StaticPlace rest = StaticPlace::automatic;
   std::optional<Friction> friction = {};
-  bool as_point = false;  ///< carried as a point of a mesh that stays as it is, wherever it is
+  bool as_point = false;  ///< carried as a point of a fixed mesh, at every place
 
   bool is_offset() const { return follows_section && offset != Eigen::Vector2d::Zero(); }
-  /// Whether the body has coordinates of its own where it is a node: a constraint ties it to the node then,
-  /// whose multipliers are the force between them.
+  /// Whether a body carried as a node has coordinates besides those of the node: a constraint then ties both,
+  /// and its multipliers are the force between them.
   bool stands_apart() const { return is_offset() || friction.has_value(); }
 };
 
-/// All that has coordinates: beams, bodies, the riders that make nodes of the beams move, and what connects
-/// bodies, places of beams and points.
-///
-/// Coordinates are the model's own frame: for dimension 2 the plane of the model (third components zero).
+/// All that has coordinates: beams, bodies, riders, connectors and stops.
 struct Structure {
   int dimension = 3;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s^2]

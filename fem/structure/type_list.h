@@ -2,7 +2,7 @@
 
 namespace nurbeam {
 
-/// Types in an order.
+/// An ordered list of types.
 template <class... Types>
 struct TypeList {
   /// Calls visit.template operator()<Type>() for each in turn.

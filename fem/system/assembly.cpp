@@ -1,4 +1,4 @@
-// Long because it is the one walk over elements, forces and constraints, for each of what a system is asked.
+// Long because it is the one walk over elements, forces and constraints, for every question to a system.
 #include "fem/system/assembly.h"
 
 #include <algorithm>
@@ -284,7 +284,7 @@ int Assembly<D>::part_count(int beam) const {
   return static_cast<int>(walks_[beam].batches.size() + walks_[beam].others.size());
 }
 
-// Batches come first.
+// Adds the forces of one part of a beam: the batches come first, then the other elements.
 template <int D>
 void Assembly<D>::add_part(int beam, int part, const State& state, const Vector& load,
                            Eigen::Ref<Eigen::VectorXd> dynamics) const {
@@ -420,7 +420,7 @@ Eigen::VectorXd Assembly<D>::constraint_curvature(const State& state) const {
 
 template <int D>
 double Assembly<D>::step_limit(const State& state) const {
-  constexpr double largest_slide = 0.2;  // of the shorter neighbour
+  constexpr double largest_slide = 0.2;  // part of the shorter neighbour's length
   double limit = std::numeric_limits<double>::infinity();
   const auto speed = [&](int place) { return place >= 0 ? std::abs(state.v[place]) : 0; };
   for (const int moving : moving_spans_) {
@@ -434,7 +434,7 @@ double Assembly<D>::step_limit(const State& state) const {
 
 template <int D>
 bool Assembly<D>::admissible(const State& state) const {
-  constexpr double shortest = 1e-3;  // of the element's length when the mesh was made
+  constexpr double shortest = 1e-3;  // part of the element's length when the mesh was made
   if constexpr (D == 3)
     for (const MeshElement<D>& e : elements_)
       if (e.twist && !e.twist->element.admissible(gather_twist(e, state.q))) return false;

@@ -22,18 +22,18 @@ namespace nurbeam {
 /// Elements, constraints and forces of a model in one mesh, behind SecondOrderSystem: the only loop over
 /// elements.
 ///
-/// Multipliers: of the model's constraints in order, then those of ConstraintSources.
+/// Multipliers are in the order of the model's constraints, then of ConstraintSources.
 template <int D>
 class Assembly final : public SecondOrderSystem {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  /// `held`: riders whose place is held at its value in the plan. `like`: a system of the same model, of
-  /// which elements are taken that it has in common with this one. `neighbour`: one in the same plan, of
-  /// which the pattern is taken if it is the same.
+  /// `held`: riders whose place is held at its value in the plan. `like`: a system of the same model, from
+  /// which common elements are taken. `neighbour`: a system with this plan, from which the pattern is taken
+  /// if it is equal.
   Assembly(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
            const Assembly* like = nullptr, const Assembly* neighbour = nullptr);
-  // Constraints and elements look at this mesh.
+  // Not copied: constraints and elements refer to this mesh.
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
@@ -57,13 +57,13 @@ class Assembly final : public SecondOrderSystem {
       std::visit([&](const auto& c) { visit(c, Rows{constraint_blocks_[i].row, c.rows}); }, constraints_[i]);
   }
 
-  /// The same of one of them.
+  /// Calls visit(constraint, rows) for constraint i of the mesh.
   template <class Visit>
   void visit_constraint(int i, Visit&& visit) const {
     std::visit([&](const auto& c) { visit(c, Rows{constraint_blocks_[i].row, c.rows}); }, constraints_[i]);
   }
-  /// Numbers of the forces and constraints of the mesh that are of parts of the structure; -1 where there is
-  /// none.
+  /// Numbers of the forces and constraints of the mesh that belong to parts of the structure; -1 where there
+  /// is none.
   struct Parts {
     std::vector<int> friction, held_places;  ///< per rider: its force; the constraint of its place
     std::vector<int> springs, rods;          ///< per connector: its force, or its constraint
@@ -71,45 +71,47 @@ class Assembly final : public SecondOrderSystem {
   };
   const Parts& parts() const { return parts_; }
 
-  /// The multipliers' force and couple on the beam that constraint i of the model holds, on the first of two
-  /// [N], [N m]; impulses where `multipliers` are.
+  /// Force and couple, by the multipliers, on the beam that constraint i of the model holds, or on the first
+  /// of two beams [N], [N m]; impulses where `multipliers` are impulses.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> reaction(int i, const State& state,
                                                        const Eigen::VectorXd& multipliers) const;
-  /// What all but weight, inertia and riders gives to a body [N].
+  /// Force on a body, without weight, inertia and the forces of riders [N].
   Vector force_on_body(int body, const State& state) const;
-  /// The sum of the elements' energies, of the axis alone; with the potential of gravity. `of`: these
-  /// elements alone; null: all.
+  /// The sum of the energies of the elements' axes, with the potential of gravity. `of`: the elements that
+  /// count; null: all.
   ElementEnergy axis_energy(const State& state, const std::vector<bool>* of = nullptr) const;
-  /// That of a beam, deformed [m].
+  /// Deformed length of a beam [m].
   double length(int beam, const State& state) const;
-  /// Inertia less forces of an element alone, in its own coordinates, under a load by line_load.
+  /// Inertia less forces of one element, in its own coordinates, under a load by line_load.
   ElementVector<D> element_force(const MeshElement<D>& e, const State& state, const Vector& load) const;
   /// The dead load of a beam per reference length, its weight included [N/m].
   Vector line_load(int beam, const State& state) const;
-  /// The axial strain without axial force of a beam that has elements, as State::load has it.
+  /// The free strain of a beam that has elements, as State::load scales it.
   double free_strain_of(int beam, const State& state) const {
     return free_strain(elements_[mesh_.first_span[beam]], state);
   }
-  /// Which elements answer otherwise than those of `other`, a system of one mesh of a neighbouring model,
-  /// apart from loads and free strains: to round-off, sections at these states; ends that move at
-  /// corresponding places. `known`: by element what is known of it; may be empty.
+  /// Per element: whether it behaves differently from that of `other`, a system of one mesh of a neighbouring
+  /// model, apart from loads and free strains. The comparison is to round-off, for sections in these states,
+  /// and for moving ends at corresponding places. `known`: results that are known already, per element; may
+  /// be empty.
   std::vector<bool> elements_unlike(const Assembly& other, const std::vector<State>& states,
                                     const std::vector<std::optional<bool>>& known) const;
-  /// Whether nothing but elements and loads can differ from `other`, of the same kind: no forces but inertia
-  /// and weight of bodies, no motions, and what there is the same to round-off at these states, which must be
-  /// general ones that correspond.
+  /// Whether only elements and loads can differ from `other`, a system of the same kind. Then no forces but
+  /// inertia and weight of bodies act, there are no prescribed motions, and the constraints agree to
+  /// round-off in these states. The two states must be general and correspond to each other.
   bool differs_in_elements(const Assembly& other, const State& own, const State& of_other) const;
-  /// On which side of 0 laws are that have a kink there, as State::sides has it: of each element whether it
-  /// is taut, then of each connector of one sign whether it carries. Empty where there are none.
+  /// The sides of laws with a kink at 0, for State::sides: for each element whether it is taut, then for each
+  /// connector of one sign whether it carries. Empty where there are no such laws.
   Eigen::VectorXd sides(const State& state) const;
-  /// Adds to the dynamics of a residual the forces of these elements and of all that is no element, which is
-  /// all that the constraints need.
+  /// Adds to the dynamics of a residual the forces of these elements and all contributions that are no
+  /// elements; the constraints need no more.
   void add_residual_of(const std::vector<int>& elements, const State& state,
                        Eigen::Ref<Eigen::VectorXd> dynamics, Eigen::Ref<Eigen::VectorXd> constraints) const;
-  /// What forces and bodies do to points of beams; bodies and supports at nodes do it there.
+  /// Forces and couples of forces and bodies on points of beams; those of bodies and supports at nodes act at
+  /// the nodes.
   std::vector<PointAction> actions(const State& state) const;
-  /// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them,
-  /// and gives them the velocity of these.
+  /// Moves bodies that stand apart from their nodes to where the nodes, or the sections that they follow,
+  /// carry them, and gives them the velocities there.
   void carry_bodies(State& state) const;
   /// Whether the forces of an element are those of form P, for comparison.
   bool is_form_p(const MeshElement<D>& e) const {
@@ -129,7 +131,7 @@ class Assembly final : public SecondOrderSystem {
                      Eigen::Ref<Eigen::VectorXd> constraints) const override;
   void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                     double* values) const override;
-  /// Of elements whose ends move and of the places of riders, and what constraints tie to them.
+  /// Unknowns of elements with moving ends and of riders' places, and those that constraints tie to them.
   const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
@@ -143,13 +145,13 @@ class Assembly final : public SecondOrderSystem {
   bool has_constant_inertia() const override;
 
  private:
-  // Entries that follow one another in columns of a contribution that do so, and where they are among the
-  // values of the iteration matrix: the first of them, and as much further on in each column.
+  // A run of entries: rows that follow one another in columns that do too. `value`: index of the first entry
+  // among the values of the iteration matrix; `stride`: distance between columns.
   struct Run {
     int value, stride;
     std::uint8_t column, columns, row, rows;
 
-    /// Adds a column, whose first entry is there, if it follows.
+    /// Adds a column if it follows; `first`: index of its first entry.
     bool takes(int next, int first) {
       const int by = first - value - (columns - 1) * stride;
       if (next != column + columns || (columns > 1 && by != stride)) return false;
@@ -159,18 +161,18 @@ class Assembly final : public SecondOrderSystem {
     }
   };
   using Runs = std::span<const Run>;
-  // Coordinates of one contribution, -1 where there is none, and where its entries are.
+  // Coordinates of one contribution, -1 where there is none, and the runs of its entries.
   struct Block {
     std::vector<int> dofs;
     std::vector<Run> runs;
   };
-  // Where the entries of the elements are, of one after the other.
+  // The runs of the entries of elements, in order.
   struct ElementRuns {
     std::vector<Run> runs;
-    std::vector<int> starts = {0};  // of each element, and the end
+    std::vector<int> starts = {0};  // first run of each element, and the end
 
     Runs operator[](int i) const { return {runs.data() + starts[i], runs.data() + starts[i + 1]}; }
-    /// Those of elements from one to before another, whose entries are so much further on.
+    /// Appends the runs of elements `first` to `end` of another list, whose entries lie further on by `by`.
     void append(const ElementRuns& other, int first, int end, int by) {
       const int before = static_cast<int>(runs.size()) - other.starts[first];
       for (int i = first; i < end; ++i) starts.push_back(other.starts[i + 1] + before);
@@ -184,15 +186,15 @@ class Assembly final : public SecondOrderSystem {
     Block block;
     std::vector<int> gradient_values, transposed_values;  // rows x dofs, column by column
   };
-  // What of the tangent lasts less than the rest, with positions in a matrix of its own.
+  // The part of the tangent that changes most often, with positions in a matrix of its own.
   struct MovingPart {
     std::vector<int> unknowns;
     std::vector<int> elements, constraints;
-    ElementRuns element_runs, twist_runs;            // of these elements
-    std::vector<ConstraintBlock> constraint_blocks;  // of these constraints
+    ElementRuns element_runs, twist_runs;            // of `elements`
+    std::vector<ConstraintBlock> constraint_blocks;  // of `constraints`
   };
-  // The elements of one beam: those whose forces are found side by side, with their indices in the order of
-  // the batches, and the indices of the others.
+  // The elements of one beam. `batched`: elements computed in batches, in the order of the batches; `others`:
+  // the rest.
   struct Walk {
     std::vector<ElementBatch<D>> batches;
     std::vector<int> batched, others;
@@ -219,7 +221,7 @@ class Assembly final : public SecondOrderSystem {
   void choose_moving_part();
   template <class Matrix>
   static void scatter(Runs runs, const Matrix& matrix, double* values);
-  // None without torsion.
+  // The coordinates of an element's sections; none without torsion.
   std::span<const int> twist_dofs(int element) const {
     if (!elements_[element].twist) return {};
     return elements_[element].twist->dofs;
@@ -254,17 +256,17 @@ class Assembly final : public SecondOrderSystem {
   std::shared_ptr<const BeamModel> model_;
   Mesh mesh_;
   std::vector<bool> held_;
-  std::vector<int> moving_spans_;  // those with an end that moves
+  std::vector<int> moving_spans_;  // spans with a moving end
   std::vector<MeshElement<D>> elements_;
-  std::vector<Walk> walks_;  // of each beam
+  std::vector<Walk> walks_;  // per beam
   std::vector<BoundConstraint<D>> constraints_;
   Parts parts_;
   std::vector<BoundForce<D>> forces_;
 
   int constraint_count_ = 0;
-  std::vector<Rows> constraint_rows_;  // of the model's
+  std::vector<Rows> constraint_rows_;  // rows of the model's constraints
   ElementRuns element_runs_;
-  ElementRuns twist_runs_;  // of the elements of beams with torsion, none of others
+  ElementRuns twist_runs_;  // for beams with torsion; empty for other elements
   std::vector<Block> force_blocks_;
   std::vector<ConstraintBlock> constraint_blocks_;
   std::vector<int> over_mesh_;  // constraints that move over the mesh
@@ -272,9 +274,10 @@ class Assembly final : public SecondOrderSystem {
   SparsePattern pattern_;
 };
 
-// Calls work(i) for each batch, in a long beam several at a time: first in every other one of an even number
-// of pieces, then in the others, so that two with a node in common, on a ring the first and the last too, are
-// never worked on at once. No node has more than the two elements beside it: sums do not depend on the order.
+// Calls work(i) for each batch, in a long beam several at a time. The beam is divided into an even number of
+// pieces; first every other piece is worked on, then the rest. Two batches with a common node, on a ring also
+// the first and the last, are thus never worked on at once. A node has only the two elements beside it, so
+// sums do not depend on the order.
 template <int D>
 template <class Work>
 void Assembly<D>::for_each_batch(const Walk& walk, const Work& work) {

@@ -1,4 +1,4 @@
-// In what two assemblies of one mesh differ.
+// Differences between two assemblies of one mesh.
 #include <algorithm>
 #include <optional>
 

@@ -1,4 +1,4 @@
-// Where the entries of an assembly's tangents are.
+// Positions of the entries of an assembly's tangents.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -12,12 +12,12 @@ namespace nurbeam {
 
 namespace {
 
-// Where the entries of a sparse matrix are among its values.
+// Indices of the entries of a sparse matrix among its values.
 struct SparsePlaces {
   const SparsePattern& of;
 
   int start(int column) const { return of.column_starts()[column]; }
-  /// `guess`: how far it may be from the start of its column.
+  /// `guess`: possible distance of the entry from the start of its column.
   int operator()(int row, int column, int guess) const {
     const int* const all = of.rows().data();
     const int begin = start(column), end = start(column + 1);
@@ -26,7 +26,7 @@ struct SparsePlaces {
   }
 };
 
-// The same of the dense matrix of some unknowns, in order.
+// Indices of the entries of the dense matrix of some unknowns, in order.
 struct DensePlaces {
   const std::vector<int>& unknowns;
 
@@ -37,7 +37,7 @@ struct DensePlaces {
   int operator()(int row, int column, int) const { return start(column) + place(row); }
 };
 
-// The coordinates of a bound force in its own block, where it has one.
+// The coordinates of a bound force in its own block; empty where it has none.
 template <class Force>
 std::vector<int> own_dofs(const Force& force) {
   if constexpr (requires { force.dofs(); })
@@ -54,7 +54,7 @@ void Assembly<D>::list_blocks() {
     force_blocks_.push_back({std::visit([](const auto& f) { return own_dofs(f); }, force), {}});
 }
 
-// Whether both couple the same coordinates and move the same of them.
+// Whether two assemblies couple the same coordinates, and the same of them move.
 template <int D>
 bool Assembly<D>::couples_as(const Assembly& other) const {
   const auto same_dofs = [](const std::vector<Block>& blocks, const std::vector<Block>& others) {
@@ -122,8 +122,8 @@ CoupledGroups Assembly<D>::coupled_groups() const {
   return groups;
 }
 
-// Takes what is the same in another system of the model but for where it is; whether it is so in all but a
-// stretch.
+// Takes over the pattern and the runs of another system of the model, shifted, and renews one stretch.
+// Returns whether all else is equal.
 template <int D>
 bool Assembly<D>::shift_pattern(const Assembly& other) {
   const CoupledGroups old = other.coupled_groups(), now = coupled_groups();
@@ -151,17 +151,17 @@ void Assembly<D>::locate_blocks() {
   for (ConstraintBlock& block : constraint_blocks_) locate(block, index_of);
 }
 
-// Adds where the entries of a contribution are; `index_of` gives that of a row and a column. Rows that follow
-// one another do so among all entries, which hold each of them. In the columns of one node they are as far
-// from the start.
+// Adds the runs of the entries of a contribution; `index_of` gives the index for a row and a column. Rows
+// that follow one another also do so in the matrix, which has all of them. In the columns of one node they
+// lie equally far from the start.
 template <int D>
 template <class IndexOf>
 void Assembly<D>::locate(std::span<const int> dofs, const IndexOf& index_of, std::vector<Run>& runs) {
   struct Rows {
     int first;
     std::uint8_t at, count;
-    int from_start;  // of the column before
-    int run;         // the last one of these rows, -1: none
+    int from_start;  // in the column before
+    int run;         // last run of these rows, -1: none
   };
   constexpr std::size_t most = 64;  // coordinates of a contribution
   assert(dofs.size() <= most);
@@ -187,7 +187,7 @@ void Assembly<D>::locate(std::span<const int> dofs, const IndexOf& index_of, std
   }
 }
 
-// Of these elements, one after the other.
+// Locates the entries of these elements, in order.
 template <int D>
 template <class IndexOf>
 void Assembly<D>::locate_elements(const std::vector<int>& elements, const IndexOf& index_of,
@@ -218,8 +218,8 @@ void Assembly<D>::locate(ConstraintBlock& block, const IndexOf& index_of) const 
     }
 }
 
-// Marks all unknowns of constraints that hold one that is marked, and of those that hold one of these: what
-// is left is constrained by itself.
+// Marks all unknowns of constraints that hold a marked unknown, again and again. The unmarked ones are then
+// constrained among themselves.
 template <int D>
 void Assembly<D>::mark_constrained(std::vector<bool>& marked) const {
   const auto touches = [&](const ConstraintBlock& block) {
@@ -260,8 +260,8 @@ void Assembly<D>::choose_moving_part() {
   std::vector<int>& unknowns = moving_.unknowns;
   for (int i = 0; i < static_cast<int>(marked.size()); ++i)
     if (marked[i]) unknowns.push_back(i);
-  // A part is kept apart where it is a small share of all unknowns, so that another correction costs more
-  // than to renew it, and where dense work on it takes less than the elimination of all.
+  // The moving part is kept apart where it is a small share of all unknowns: renewing it then costs less than
+  // one more correction. The dense work on it must also be less than the elimination of all.
   constexpr double smallest_share = 4, most_work = 500;
   const double part = static_cast<double>(unknowns.size()), whole = static_cast<double>(marked.size());
   if (smallest_share * part > whole || part * part * part > most_work * whole) {

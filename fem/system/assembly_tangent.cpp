@@ -1,4 +1,4 @@
-// The tangents of an assembly, and what it is asked for near some unknowns.
+// The tangents of an assembly, and its residuals and tangents near some unknowns.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -19,7 +19,7 @@ void Assembly<D>::scatter(Runs runs, const Matrix& matrix, double* values) {
     }
 }
 
-// Of which contributions the tangents are asked for: all, or those to the rows of unknowns that are near.
+// The contributions whose tangents are wanted: all, or those in the rows of unknowns that are near.
 template <int D>
 struct Assembly<D>::All {
   bool operator()(int) const { return true; }
@@ -31,7 +31,7 @@ template <int D>
 struct Assembly<D>::Near {
   const Assembly& of;
   const std::vector<bool>& near;
-  std::vector<int> before;  // how many coordinates are near before each
+  std::vector<int> before;  // number of near coordinates before each
 
   Near(const Assembly& assembly, const std::vector<bool>& unknowns)
       : of(assembly), near(unknowns), before(static_cast<std::size_t>(of.mesh_.coordinate_count) + 1, 0) {
@@ -42,7 +42,7 @@ struct Assembly<D>::Near {
     return std::any_of(
         dofs.begin(), dofs.end(), [&](int dof) { return dof >= 0 && near[dof]; });
   }
-  /// Whether there may be any from one coordinate to another.
+  /// Whether a coordinate between two may be near.
   bool operator()(const std::array<int, 2>& reach) const { return before[reach[1] + 1] > before[reach[0]]; }
   bool operator()(const Block& block) const { return any(block.dofs); }
   bool operator()(int element) const {
@@ -55,7 +55,7 @@ struct Assembly<D>::Near {
   }
 };
 
-// Takes the tangent matrices of one force.
+// A sink for the tangent matrices of one force.
 template <int D>
 template <class Wanted>
 struct Assembly<D>::Sink {
@@ -67,7 +67,7 @@ struct Assembly<D>::Sink {
   void element(int index, const ElementMatrix<D>& K) const {
     if (wanted(index)) scatter(element_runs[index], K, values);
   }
-  /// In the coordinates of an element with its sections.
+  /// Adds a matrix in the coordinates of an element with its sections.
   void twist(int index, const TwistLayout::Matrix& K) const {
     if (wanted(index)) scatter(twist_runs[index], K, values);
   }
@@ -89,7 +89,7 @@ void Assembly<D>::add_element_tangent(int i, const State& state, const Vector& l
     if (e.twist) scatter(twist_runs, e.twist->element.tangent(gather_twist(e, state), w), values);
 }
 
-// Of all batches of a beam that hold a wanted element.
+// Adds the tangents of all batches of a beam that hold a wanted element.
 template <int D>
 template <class Wanted>
 void Assembly<D>::add_batch_tangents(int beam, const State& state, const TangentWeights& w,
@@ -137,7 +137,7 @@ void Assembly<D>::add_constraint_tangent(int i, const State& state, const Tangen
       constraints_[i]);
 }
 
-// Of what is wanted.
+// Adds the tangents of all wanted contributions.
 template <int D>
 template <class Wanted>
 void Assembly<D>::add_tangents(const State& state, const TangentWeights& w, const Wanted& wanted,
@@ -175,7 +175,7 @@ void Assembly<D>::tangent(const State& state, const TangentWeights& w, SparseVal
   add_tangents(state, w, All{}, values);
 }
 
-// Elements whose ends move are gone over once.
+// Elements with moving ends are visited once for both matrices.
 template <int D>
 void Assembly<D>::tangents(const State& state, const std::array<TangentWeights, 2>& w,
                            const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const {

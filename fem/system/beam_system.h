@@ -11,26 +11,26 @@ namespace nurbeam {
 template <int D>
 class Assembly;
 
-/// A beam model in one mesh, as a system that integrators can advance. Here the dimension ends: points and
-/// vectors that are asked for (observables.h, material_points.h) have three components, the third 0 in the
+/// A beam model in one mesh, as a system that integrators can advance. The dimension ends here: points and
+/// vectors of its observables (observables.h, material_points.h) have three components, the third 0 in the
 /// plane.
 ///
 /// Coordinates: per beam and node r (D), r_s (D; twice at a hinge, at a corner and where a rider's slope is
 /// discontinuous), s (moving nodes), then position (D) and sigma of bodies carried as points or flying free.
-/// The order of the multipliers is its own affair: reaction and holding_force ask for them.
+/// The order of the multipliers is private: reaction and holding_force ask for them.
 class BeamSystem final : public SecondOrderSystem {
  public:
   /// `held`: riders whose s is held at its value in the plan (for statics).
   BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held = {});
-  /// On the same mesh as `like`, a system of a neighbouring model: what both have in common is taken from it.
+  /// A system on the same mesh as `like`, a system of a neighbouring model. Common parts are taken from it.
   BeamSystem(std::shared_ptr<const BeamModel> model, MeshPlan plan, const std::vector<bool>& held,
              const BeamSystem& like);
-  /// With a copy of the model.
+  /// A system with a copy of the model.
   BeamSystem(const BeamModel& model, MeshPlan plan, const std::vector<bool>& held = {});
-  /// In its initial plan.
+  /// A system in its initial plan.
   explicit BeamSystem(const BeamModel& model);
-  /// The same model in another plan. What is the same in both need not be made anew, nor what is as in the
-  /// system of a neighbouring model in that plan.
+  /// The system of the model in another plan. Common parts are reused, also those of `neighbour`, a system of
+  /// a neighbouring model in that plan.
   std::unique_ptr<BeamSystem> replanned(MeshPlan plan, const std::vector<bool>& held = {},
                                         const BeamSystem* neighbour = nullptr) const;
   ~BeamSystem() override;
@@ -40,7 +40,7 @@ class BeamSystem final : public SecondOrderSystem {
   const BeamModel& model() const;
   const std::shared_ptr<const BeamModel>& shared_model() const;
   const Mesh& mesh() const;
-  /// The riders whose s is held at its value in the plan, as they were given.
+  /// The riders whose s is held at its value in the plan, as given to the constructor.
   const std::vector<bool>& held() const;
   int dimension() const { return model().dimension; }
 
@@ -69,7 +69,7 @@ class BeamSystem final : public SecondOrderSystem {
   bool forces_depend_on_multipliers() const override;
   bool has_constant_inertia() const override;
 
-  /// The system of its dimension; null for the other one.
+  /// The assembly of the system's dimension; null for the other one.
   template <int D>
   const Assembly<D>* assembly() const;
 

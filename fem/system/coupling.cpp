@@ -6,7 +6,7 @@
 namespace nurbeam {
 
 SparsePattern Coupling::pattern() const {
-  // The groups of each unknown.
+  // The groups of each unknown, one unknown after the other.
   std::vector<int> first_group(static_cast<std::size_t>(size_) + 1, 0), groups(members_.size());
   for (const int i : members_) ++first_group[i + 1];
   for (int i = 0; i < size_; ++i) first_group[i + 1] += first_group[i];
@@ -14,7 +14,7 @@ SparsePattern Coupling::pattern() const {
   for (int g = 0; g + 1 < static_cast<int>(group_starts_.size()); ++g)
     for (int k = group_starts_[g]; k < group_starts_[g + 1]; ++k) groups[next[members_[k]]++] = g;
 
-  // Of unknowns in the same groups, as those of one node are, the columns have the same rows.
+  // Unknowns in the same groups, as those of one node are, have columns with the same rows.
   const auto is_like_previous = [&](int column) {
     if (column == 0) return false;
     const int begin = first_group[column], end = first_group[column + 1], before = first_group[column - 1];

@@ -5,13 +5,13 @@
 
 namespace nurbeam {
 
-/// Which unknowns of a matrix are coupled: groups, of which each is coupled with each, and all with
-/// themselves.
+/// The coupling of the unknowns of a matrix, by groups. All unknowns of a group are coupled with each other,
+/// and every unknown with itself.
 class Coupling {
  public:
   explicit Coupling(int unknowns) : size_(unknowns), group_starts_{0} {}
 
-  /// Adds to the group that is open; those below 0 are none.
+  /// Adds unknowns to the open group; negative ones are skipped.
   template <class Unknowns>
   void add(const Unknowns& unknowns) {
     for (const int i : unknowns)
@@ -23,7 +23,7 @@ class Coupling {
   /// Ends the group.
   void close() { group_starts_.push_back(static_cast<int>(members_.size())); }
 
-  /// With an entry where two are coupled.
+  /// The pattern with an entry for each coupled pair.
   SparsePattern pattern() const;
 
  private:

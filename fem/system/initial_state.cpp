@@ -23,7 +23,7 @@ struct GivenVelocity {
   }
 };
 
-// Sums for the coordinates of a mesh, of which those that are shared are to be means.
+// Sums for the coordinates of a mesh; coordinates with several contributions get their mean.
 class NodalMeans {
  public:
   explicit NodalMeans(int coordinates)
@@ -39,7 +39,7 @@ class NodalMeans {
   Eigen::VectorXd sum_, count_;
 };
 
-// Of the nodes and of the bodies that are carried as points.
+// Given velocities of the nodes and of the bodies that are carried as points.
 Eigen::VectorXd given_velocities(const BeamSystem& system, const State& state) {
   const BeamModel& model = system.model();
   const Mesh& mesh = system.mesh();
@@ -68,7 +68,7 @@ Eigen::VectorXd given_velocities(const BeamSystem& system, const State& state) {
   return v.means();
 }
 
-// Adds to the rates of the sections' angles what the given velocities, which `added` has, turn them by.
+// Adds to the rates of the sections' angles the turns by the given velocities, which `added` has.
 void add_given_spins(const BeamSystem& system, const State& added, Eigen::VectorXd& v) {
   const Assembly<3>* assembly = system.assembly<3>();
   if (!assembly) return;
@@ -88,8 +88,8 @@ void add_given_spins(const BeamSystem& system, const State& added, Eigen::Vector
   v += rates.means();
 }
 
-// The rates of the angles of a moving node, and of the bubbles beside it, over sections at rest. The slopes
-// have theirs.
+// Sets the rates of the angles of a moving node, and of the bubbles beside it, as it moves over sections at
+// rest. The rates of slopes are set already.
 void slide_sections(const BeamSystem& system, const MeshNode& node, int left, int right, double speed,
                     State& state) {
   const auto& elements = system.assembly<3>()->elements();
@@ -111,7 +111,7 @@ void slide_sections(const BeamSystem& system, const MeshNode& node, int left, in
   }
 }
 
-// The field at a place as what lies ahead of a body has it, which moves there at this speed along the beam.
+// The field at a place, from the side ahead of a body that moves there at this speed along the beam.
 MaterialPoint<3> point_ahead(const BeamSystem& system, const State& state, int beam, double s, double speed) {
   const Mesh& mesh = system.mesh();
   const int first = mesh.first_span[beam], end = mesh.first_span[beam + 1];
@@ -153,7 +153,8 @@ void start_moving(const BeamSystem& system, State& state) {
     if (at.node < 0) continue;
     const int index = first + at.node;
     const MaterialPoint<3> right = material_point_in(system, state, index, s);
-    // The material is at rest, so the slopes at the moving node change by what the node meets.
+    // The material is at rest, so the slopes at the moving node change only as the node moves along the
+    // curve.
     const MaterialPoint<3> left = material_point_in(system, state, (index > first ? index : end) - 1, s);
     const MeshNode& node = mesh.nodes[rider.beam][at.node];
     state.v.segment(node.r, D) = velocity;

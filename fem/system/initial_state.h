@@ -3,14 +3,14 @@
 
 namespace nurbeam {
 
-/// The drawn shape; velocities, accelerations and multipliers zero.
+/// The drawn state; velocities, accelerations and multipliers are zero.
 State drawn_state(const BeamSystem& system);
-/// Sets velocities: the material at rest or as Beam::velocity has it, each rider's body moving along the beam
-/// with its initial speed, bodies without a rider with theirs.
+/// Sets velocities: the material is at rest or moves by Beam::velocity; each rider's body moves along the
+/// beam with its initial speed; bodies without a rider have their own.
 void start_moving(const BeamSystem& system, State& state);
 
-/// Puts bodies that stand apart from their nodes where these or the sections that they follow carry them, and
-/// gives them their velocity.
+/// Moves bodies that stand apart from their nodes to where the nodes, or the sections that they follow, carry
+/// them, and gives them the velocities there.
 void carry_bodies(const BeamSystem& system, State& state);
 
 }  // namespace nurbeam

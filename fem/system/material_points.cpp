@@ -31,12 +31,12 @@ Eigen::Matrix4d control_points(const ElementBasis<double>& basis, const ElementV
   return to_bezier(nodal, Eigen::Map<const Eigen::Vector4d>(weights.data()), basis.length()).points();
 }
 
-// Measured: cantilevers of lines that are drawn unevenly have errors of up to 1.1 times the sum of turns.
+// Measured: cantilevers of unevenly drawn lines have errors of up to 1.1 times the sum of turns.
 constexpr double misfit_to_turn = 2;
 
-// How much of the energy of a uniform bending an element is too stiff by: the part of a curvature of one that
-// second derivatives of its shape functions in s do not reach. None where the drawing is even, whose shapes
-// are the cubics in s.
+// The part of the energy of a uniform bending by which an element is too stiff: the part of a curvature of 1
+// that second derivatives of its shape functions by s do not reach. It is 0 where the drawing is even, as its
+// shapes are then the cubics in s.
 template <int D>
 double bending_misfit(const MeshElement<D>& e, const ElementVector<D>& q) {
   const double s_a = q[ElementLayout<D>::place(0)], length = q[ElementLayout<D>::place(1)] - s_a;
@@ -55,7 +55,7 @@ double bending_misfit(const MeshElement<D>& e, const ElementVector<D>& q) {
   return (one - shapes * fit.solve(one)).squaredNorm();
 }
 
-// The root of its mean square since the stress-free shape [1/m].
+// Root of the mean square of the curvature since the stress-free shape [1/m].
 template <int D>
 double elastic_curvature(const MeshElement<D>& e, const State& state, double length) {
   const BeamProperties& beam = e.element.properties();
@@ -65,8 +65,8 @@ double elastic_curvature(const MeshElement<D>& e, const State& state, double len
   return beam.mean_bend(energy / length);
 }
 
-// The couple as one number: in the plane about its normal; in space, where a beam without torsion carries
-// none along itself, positive where it bends more than the stress-free shape.
+// The couple as one number: in the plane about its normal. In space a beam without torsion carries no couple
+// along itself; the number is positive where the beam bends more than the stress-free shape.
 template <int D>
 double bending_moment(const Eigen::Vector3d& couple, const MaterialPoint<3>& p) {
   if constexpr (D == 2) return couple.z();
@@ -85,12 +85,12 @@ SectionPoint section_of(const MeshElement<3>& e, const State& state, double s) {
   return e.twist->element.section(gather_twist(e, state.q), s);
 }
 
-/// What is known of a place of an element before its forces are.
+/// A place of an element, before its forces are known.
 template <int D>
 struct PlaceInElement {
   double s;
   MaterialPoint<D> point;
-  std::optional<SectionPoint> section;  ///< of a beam with torsion
+  std::optional<SectionPoint> section;  ///< on a beam with torsion
 
   PlaceInElement(const MeshElement<D>& e, const State& state, double place)
       : PlaceInElement(e, state, place, material_point<D>(e, state.q, state.v, place)) {}
@@ -101,21 +101,22 @@ struct PlaceInElement {
   }
 };
 
-// The angle by which a section has twisted since the drawing, against the start of the element: the strain of
-// twist is linear in it.
+// The twist of a section since the drawing, against the start of the element [rad]: the strain of twist is
+// linear in s.
 double twist_since_start(const MeshElement<3>& e, const State& state, double s) {
   const double s_a = e.span->start(state.q);
   return s == s_a ? 0 : (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
 }
 
-// What a beam with torsion knows of its section besides.
+// Adds the values that only a beam with torsion has to the record of its section.
 void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
                   const Eigen::Vector3d& couple, const PlaceInElement<3>& at, SectionRecord& record) {
   const SectionTriad<double>& triad = at.section->triad;
   record.torque = couple.dot(triad.t);
   record.moment_1 = couple.dot(triad.d1);
   record.moment_2 = couple.dot(triad.d2);
-  // Two axes have no common sign: one that said whether it bends more would jump where they change roles.
+  // Bending about two axes has no common sign: a sign for more or less bending would jump where the axes
+  // change roles.
   record.bending_moment = std::hypot(record.moment_1, record.moment_2);
   record.twist = twist_since_start(e, state, at.s);
   record.stress = record.von_mises = SectionRecord::no_number;
@@ -307,7 +308,8 @@ StrainIntegral SpanStrain::at(const State& state) const {
       system_,
       [&]<int D>(const Assembly<D>& a) {
         ElementNodes<D> e = ElementLayout<D>::nodes(gather<D>(a.elements()[span_], state.q));
-        // From where it begins: strains far from the origin are not lost in round-off.
+        // Positions count from the start of the span, so that strains far from the origin are not lost in
+        // round-off.
         e.col(2) -= e.col(0);
         e.col(0).setZero();
         const ElementNodes<D> gradient = e * stretch_;

@@ -9,47 +9,46 @@
 
 namespace nurbeam {
 
-/// Position and velocity fields at material point s [m] of a beam; on a ring s may be any full turns away. A
-/// rigid guide is where it is drawn.
+/// Position and velocity fields at material point s [m] of a beam; on a ring s may be any number of full
+/// turns away. A rigid guide stays where it is drawn.
 MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s);
-/// The same, as the element in span `span` has it: at a node, from its side.
+/// Position and velocity fields by the element in span `span`: at a node, from its side.
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s);
 
-/// The section at material point s of a beam with torsion, and what it carries; at a node as the element
-/// after it has it (the last one at the end of a beam that is no ring). Throws std::invalid_argument where
-/// the beam has none.
+/// The section at material point s of a beam with torsion, and its moments; at a node by the element after it
+/// (the last element at the end of an open beam). Throws std::invalid_argument for a beam without torsion.
 SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s);
-/// Spin of the material section at s about its tangent [rad/s], and the present twist of the beam there
-/// [rad/m]; 0 without torsion.
+/// material_spin(): spin of the material section at s about its tangent [rad/s]; section_twist(): present
+/// twist of the beam there [rad/m]; both 0 without torsion.
 double material_spin(const BeamSystem& system, const State& state, int beam, double s);
 double section_twist(const BeamSystem& system, const State& state, int beam, double s);
-/// What one section of a beam carries.
+/// Strains, forces and stresses of one section of a beam.
 struct SectionRecord {
-  double strain = 0;          ///< Green's axial strain that carries [-]
+  double strain = 0;          ///< Green's axial strain, as it gives the axial force [-]
   double curvature = 0;       ///< [1/m], by the model's measure; signed in a planar model
   double axial_force = 0;     ///< elastic, tension positive [N]
   double bending_moment = 0;  ///< [N m]; signed in a planar model, in space as the change of curvature is
-  double torque = 0;          ///< about the tangent [N m]; 0 without torsion
-  double shear_force = 0;  ///< [N]; in a planar model that of the part beyond the section, along the normal n
-                           ///< = e_z x t; in space its magnitude
-  double stress = 0;       ///< of the fibre that it is largest in [Pa]; NaN where the section does not say
-  /// Of a beam with torsion, else NaN: bending moments about the section's own axes d1 and d2 [N m], the
-  /// angle by which the section has twisted since the drawing, against the start of its span [rad], and the
-  /// von Mises stress where it is largest [Pa] (NaN where the section does not say).
+  double torque = 0;  ///< [N m]; signed in a planar model; in space with the sign of the change of curvature
+  double shear_force = 0;  ///< [N]; in a planar model the force of the part beyond the section, along the
+                           ///< normal n = e_z x t; in space its magnitude
+  double stress = 0;       ///< at the fibre where it is largest [Pa]; NaN where the section does not give it
+  /// For a beam with torsion, else NaN: bending moments about the section's own axes d1 and d2 [N m]; the
+  /// twist of the section since the drawing, against the start of its span [rad]; the maximum von Mises
+  /// stress [Pa] (NaN where the section does not give it).
   double moment_1 = no_number, moment_2 = no_number, twist = no_number, von_mises = no_number;
 
   static constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 };
-/// At material point s [m] of the element in a span, whose stress resultants are `carried`.
+/// The section at material point s [m] of the element in a span, whose stress resultants are `carried`.
 SectionRecord section_at(const BeamSystem& system, const State& state, int span,
                          const SpanResultants& carried, double s);
 
-/// The element in a span as a rational cubic, and what it carries at the parameters u = 0, 1/3, 2/3, 1
-/// (`sample`), as in SectionRecord.
+/// The element in a span as a rational cubic, with the values of SectionRecord at the parameters u = 0, 1/3,
+/// 2/3, 1 (`sample`).
 struct ElementRecord {
   Eigen::Matrix4d control_points;  ///< homogeneous, deformed [m]
   double s_start = 0, s_end = 0;   ///< reference arc length [m]
-  double axial_mismatch = 0;       ///< pointwise less assumed axial strain, the largest: a coarse mesh [-]
+  double axial_mismatch = 0;  ///< maximum of pointwise less assumed axial strain; large on a coarse mesh [-]
   Eigen::Vector4d strain, curvature, axial_force, bending_moment, torque = Eigen::Vector4d::Zero(),
                                                                   shear_force = Eigen::Vector4d::Zero(),
                                                                   stress = Eigen::Vector4d::Zero();
@@ -68,21 +67,23 @@ struct ElementRecord {
 ElementRecord record_element(const BeamSystem& system, const State& state, int span,
                              const SpanResultants& carried);
 
-/// What the other two of an ElementRecord are made of: its control points, and the angle by which its end has
-/// twisted against its start since the drawing [rad]; NaN without torsion.
+/// span_control_points(): the control points of an ElementRecord; span_twist(): the twist of the span's end
+/// against its start since the drawing [rad], NaN without torsion.
 Eigen::Matrix4d span_control_points(const BeamSystem& system, const State& state, int span);
 double span_twist(const BeamSystem& system, const State& state, int span);
 
-/// What the element in a span contributes to the estimated error of positions [m]: its length times its
-/// quartic strain times quartic_strain_to_error. Measured, with the mean over the elements: cantilevers under
-/// loads of 1 and 10 EI/L^2, a beam rolled up to a circle and a cable of twice its span have errors of 1.1 to
-/// 2.4 times the quartic strain times the length, on meshes of 5 to 40 elements. Where the drawing's
-/// parameter is uneven, also the length of the beam times the angle by which the element turns too little:
-/// its curvature times its length times the part of the bending energy that its shapes do not reach.
+/// Contribution of the element in a span to the estimated error of positions [m]: its length times its
+/// quartic strain times quartic_strain_to_error. The factor was measured with the mean over the elements.
+/// Cantilevers under loads of 1 and 10 EI/L^2, a beam rolled up to a circle and a cable of twice its span
+/// have errors of 1.1 to 2.4 times the quartic strain times the length, on meshes of 5 to 40 elements.
+///
+/// Where the drawing's parameter is uneven, a second term is added: the length of the beam times the angle by
+/// which the element turns too little. This angle is its curvature times its length times the part of the
+/// bending energy that its shapes do not reach.
 double position_error(const BeamSystem& system, const State& state, int span);
 inline constexpr double quartic_strain_to_error = 2.5;
 
-/// The axial strain that the element in a span carries; nothing where it is the pointwise one.
+/// The assumed axial strain of the element in a span; nothing where the strain is pointwise.
 std::optional<AssumedStrain> assumed_strain(const BeamSystem& system, const State& state, int span);
 
 /// int eps ds of the pointwise axial strain over a span [m], and its gradients in r and r_s of its ends.
@@ -90,7 +91,7 @@ struct StrainIntegral {
   double value;
   std::array<Eigen::Vector3d, 2> by_position, by_slope;
 };
-/// The same for all states of a system in which the span has the same ends.
+/// The strain integral of a span for all states of a system in which the span has the same ends.
 class SpanStrain {
  public:
   SpanStrain(const BeamSystem& system, const State& state, int span);

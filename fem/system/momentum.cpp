@@ -13,7 +13,7 @@ namespace nurbeam {
 
 namespace {
 
-// The positions of one element, as they depend on its coordinates.
+// Position in one element as a function of its coordinates.
 template <int D>
 class ElementPositions {
  public:
@@ -23,8 +23,8 @@ class ElementPositions {
   }
 
   struct At {
-    Eigen::Vector4d by_nodes;                            // of their positions and slopes
-    std::array<Eigen::Matrix<double, D, 1>, 2> by_ends;  // of r at a fixed s, by the places of both
+    Eigen::Vector4d by_nodes;                            // by positions and slopes of the nodes
+    std::array<Eigen::Matrix<double, D, 1>, 2> by_ends;  // of r at a fixed s, by the places of both ends
   };
   At at(double s) const {
     if (!moving_) {
@@ -42,7 +42,7 @@ class ElementPositions {
   std::optional<MovingBasis> moving_;
 };
 
-// Material velocities and spins of a motion, at places of which those in one element follow one another.
+// Material velocities and spins of a motion, at places asked for element by element.
 template <int D>
 class VelocityField {
  public:
@@ -79,7 +79,7 @@ class VelocityField {
 
   const Assembly<D>* assembly_;
   const State* state_;
-  // Of the element that was last asked for.
+  // Spin rows of the last element asked for.
   struct Spins {
     TwistElement::MaterialSpinRows rows;
     TwistLayout::Coordinates rates;
@@ -90,7 +90,8 @@ class VelocityField {
   std::optional<Spins> spins_;
 };
 
-// The places between which an element of a mesh is integrated in parts: it ends at riders where these are.
+// The places that divide an element for integration: its ends, nodes of both meshes and breaks. Moving nodes
+// are taken at the riders' present places.
 template <int D>
 std::vector<double> parts_of(const MeshElement<D>& e, const Mesh& mesh, const Mesh& old, const State& state) {
   const ReferenceCurve& curve = e.element.curve();

@@ -14,26 +14,29 @@ struct BodyMotions {
 };
 BodyMotions body_motions(const BeamSystem& system, const State& state);
 
-/// What a motion of one mesh means for the coordinates of another one of the same model:
-///   p = int (rho A N'v + rho I_p W'w) ds over all elements, N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed
-/// material, plus the bodies' momenta, with the material velocity v and the spin w of sections that the
-/// motion has. Elements are integrated in parts, between all nodes of both meshes and breaks of the drawing;
-/// the axes of those that both meshes have, with fixed ends, have the momentum that they have.
+/// The momentum that a motion of one mesh has in the coordinates of another mesh of the same model:
+///
+///   p = int (rho A N'v + rho I_p W'w) ds over all elements, plus the bodies' momenta,
+///   N = dv/d(dq/dt) and W = dw/d(dq/dt) at fixed material.
+///
+/// Here v is the material velocity and w the spin of sections in the motion. Elements are integrated in
+/// parts, between all nodes of both meshes and breaks of the drawing. For elements with fixed ends that both
+/// meshes have, the momentum of the axis is taken over unchanged.
 class CarriedMomentum {
  public:
   /// The motion `state` of `from`; `to` must outlive it.
   CarriedMomentum(const BeamSystem& from, const State& state, const BeamSystem& to);
 
-  /// (n) Its momentum for the coordinates of a state of the other mesh.
+  /// (n) Momentum in the coordinates of a state of the other mesh.
   Eigen::VectorXd on(const State& state) const;
 
  private:
   template <class Of>
   struct Point {
-    double s, length;  // [m]: its weight in the integral
+    double s, length;  // [m]; length: weight in the integral
     Of motion;
   };
-  // Of an element of the other mesh, by its index.
+  // Points of an element of the other mesh, by its index.
   template <class Of>
   struct Element {
     std::size_t index;
@@ -44,8 +47,8 @@ class CarriedMomentum {
 
   const BeamSystem* to_;
   BodyMotions bodies_;
-  Eigen::VectorXd kept_;                        // (n) what does not depend on the state
-  std::vector<Element<Eigen::Vector3d>> axes_;  // what does: velocities
+  Eigen::VectorXd kept_;                        // (n) the part that does not depend on the state
+  std::vector<Element<Eigen::Vector3d>> axes_;  // elements whose part does: velocities
   std::vector<Element<double>> sections_;       // and spins
 };
 

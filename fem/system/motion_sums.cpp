@@ -1,4 +1,4 @@
-// Of what can be observed: sums over all elements of a motion, and what they are on another mesh.
+// Sums over all elements of a motion, and their transfer to another mesh.
 #include <algorithm>
 
 #include "fem/mesh/widened.h"
@@ -37,7 +37,7 @@ void add_force_energies(const Assembly<D>& a, const State& state, SystemEnergy& 
         force);
 }
 
-// Of the elements that count, one for each of the system's, null: of all; and of forces.
+// Energy of the elements that count and of forces. `counts`: per element of the system; null: all.
 template <int D>
 SystemEnergy energy_of(const Assembly<D>& a, const State& state, const std::vector<bool>* counts = nullptr) {
   SystemEnergy sum;
@@ -49,7 +49,8 @@ SystemEnergy energy_of(const Assembly<D>& a, const State& state, const std::vect
   return sum;
 }
 
-// Shape functions of positions add up to one: their rows of the momentum to that of the whole.
+// Momentum of an element: the shape functions of positions add up to one, so their rows of the momentum add
+// up to the whole.
 template <int D>
 Eigen::Matrix<double, D, 1> momentum_of(const MeshElement<D>& e, const State& state) {
   using Layout = ElementLayout<D>;
@@ -81,7 +82,7 @@ Eigen::Vector3d momentum_of(const Assembly<D>& a, const State& state) {
   return widened<D>(sum);
 }
 
-// The sums over forces and the elements that count.
+// Sums over the forces and the elements that count.
 template <int D>
 MotionSums sums_of(const Assembly<D>& a, const State& state, int beam, const std::vector<bool>& counts) {
   MotionSums sums{.energy = energy_of(a, state, &counts)};
@@ -113,7 +114,7 @@ void add(const MotionSums& other, double factor, MotionSums& sums) {
   sums.length += factor * other.length;
 }
 
-// Whether an element moves as another, the same, does: exactly so.
+// Whether an element moves exactly as the same element in another mesh.
 template <int D>
 bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<D>& other,
                  const State& other_state) {
@@ -133,7 +134,7 @@ bool moves_alike(const MeshElement<D>& e, const State& state, const MeshElement<
   return true;
 }
 
-// The elements of a system that move otherwise in one state than in another.
+// The elements of a system that move differently in two states.
 template <int D>
 std::vector<bool> unlike_motion(const Assembly<D>& a, const State& state, const State& other) {
   const Eigen::Array<bool, Eigen::Dynamic, 1> differs =
@@ -151,7 +152,7 @@ std::vector<bool> unlike_motion(const Assembly<D>& a, const State& state, const 
   return unlike;
 }
 
-// The elements of both systems that the other has not, or which move otherwise there.
+// The elements of two systems that the other does not have, or that move differently there.
 template <int D>
 std::array<std::vector<bool>, 2> unlike_motion(const Assembly<D>& a, const State& state,
                                                const Assembly<D>& other, const State& other_state) {

@@ -8,7 +8,7 @@ namespace nurbeam {
 
 namespace {
 
-// Axial energy of an element, with the free strain of another moment than the state's.
+// Axial energy of an element in a state, with the free strain of another moment.
 template <int D>
 double axial_energy(const MeshElement<D>& e, const State& state, double free_strain) {
   ElementState<D> x = gather<D>(e, state);
@@ -16,7 +16,7 @@ double axial_energy(const MeshElement<D>& e, const State& state, double free_str
   return e.element.energy(x, Eigen::Matrix<double, D, 1>::Zero()).axial;
 }
 
-// What heating puts into the axial energy between two states: the mean of both shapes.
+// Energy that heating gives to the axial strain between two states: the mean of both shapes.
 template <int D>
 double heating_of(const Assembly<D>& a, const State& from, const State& to) {
   double sum = 0;
@@ -119,7 +119,7 @@ Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int ri
 
 namespace {
 
-// First row of constraint i of the mesh; none where it is -1.
+// First row of constraint i of the mesh; nothing for -1.
 template <int D>
 std::optional<int> first_row(const Assembly<D>& a, int i) {
   std::optional<int> row;
@@ -136,7 +136,7 @@ std::optional<int> row_of_place(const BeamSystem& system, int rider) {
 
 namespace {
 
-// Of the s of a rider in the distance that a stop keeps; 0 where it is not about that rider.
+// Weight of a rider's s in the distance that a stop keeps; 0 for riders of other stops.
 double weight_in_stop(const Stop& stop, int rider) {
   if (stop.rider == rider) return stop.weight_of_rider();
   return stop.other == rider ? stop.weight_of_other() : 0;

@@ -19,12 +19,12 @@ bool any_dof(Dofs dofs, const Is& is) {
       dofs.begin(), dofs.end(), [&](int dof) { return dof >= 0 && is(dof); });
 }
 
-// Whether is(now, old) of each of both, and no one is one of them alone.
+// Whether is(now, old) holds for all pairs of unknowns; -1 may be paired with -1 alone.
 template <class Is>
 bool all_dofs(Dofs now, Dofs old, const Is& is) {
   if (now.size() != old.size()) return false;
   bool all = true;
-  // Without branches, which many would be.
+  // Arithmetic without branches, as there would be many.
   for (std::size_t k = 0; k < now.size(); ++k) {
     const int a = now[k], b = old[k];
     all = all & (((a < 0) & (b < 0)) | ((a >= 0) & (b >= 0) & is(a, b)));
@@ -32,7 +32,7 @@ bool all_dofs(Dofs now, Dofs old, const Is& is) {
   return all;
 }
 
-// Each where it was, or behind by so many.
+// Whether each unknown is where it was, or moved back by `by`.
 bool are_shifted(Dofs now, Dofs old, int by) {
   return all_dofs(
       now, old, [by](int a, int b) { return (a == b) | (a == b + by); });
@@ -62,7 +62,8 @@ std::optional<PatternShift> PatternShift::between(const CoupledGroups& old, cons
   return shift;
 }
 
-// The elements between those that may be the same, and their unknowns; whether there are any.
+// Finds the changed elements, between those that may be the same, and their unknowns; returns whether there
+// are any.
 bool PatternShift::find_changed(const CoupledGroups& old, const CoupledGroups& now) {
   const int count = static_cast<int>(now.elements.size()), old_count = static_cast<int>(old.elements.size());
   const int most = std::min(count, old_count);
@@ -99,7 +100,7 @@ void PatternShift::find_renewed(const CoupledGroups& now) {
   while (right_ < same_right_ && extents_[count - 1 - right_].lowest >= end_) ++right_;
 }
 
-// Those on the left have the numbers that they had.
+// Whether the elements outside the stretch keep their coupling: those on the left have unchanged numbers.
 bool PatternShift::holds_elements(const CoupledGroups& old, const CoupledGroups& now) const {
   const int count = static_cast<int>(now.elements.size()), old_count = static_cast<int>(old.elements.size());
   for (int i = 0; i < same_left_; ++i)
@@ -111,7 +112,7 @@ bool PatternShift::holds_elements(const CoupledGroups& old, const CoupledGroups&
   return true;
 }
 
-// Each couples what has been kept, or what is renewed alone.
+// Whether each group of forces or constraints couples kept unknowns only, or renewed ones only.
 bool PatternShift::holds_others(const CoupledGroups& old, const CoupledGroups& now) const {
   return std::equal(
       now.others.begin(), now.others.end(), old.others.begin(), old.others.end(),
@@ -125,7 +126,7 @@ bool PatternShift::holds_others(const CoupledGroups& old, const CoupledGroups& n
       });
 }
 
-// The rows of the columns from begin_ to end_, one after the other, from all groups that hold one of them.
+// The rows of the columns from begin_ to end_, in order, from all groups that hold one of them.
 SparsePattern PatternShift::renewed_columns(const CoupledGroups& now) const {
   const auto is_renewed = [&](int dof) { return this->is_renewed(dof); };
   std::vector<Dofs> groups;
@@ -176,7 +177,7 @@ SparsePattern PatternShift::pattern(const SparsePattern& old, const CoupledGroup
   std::copy_n(old_rows.begin(), first, rows.begin());
   const auto behind = std::copy(renewed.rows().begin(), renewed.rows().end(), rows.begin() + first);
   std::transform(old_rows.begin() + last, old_rows.end(), behind, [by = by_](int row) { return row + by; });
-  // The few rows of a column that are on the other side.
+  // The few rows of a column that lie on the other side of the stretch.
   for (int column = 0; column < begin_; ++column)
     for (int k = starts[column + 1] - 1; rows[k] >= changed_begin_; --k) rows[k] += by_;
   for (int column = end_; column < now.unknowns; ++column)

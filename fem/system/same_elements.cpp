@@ -10,12 +10,12 @@ namespace {
 
 bool is_same(const MeshNode& a, const MeshNode& b) { return a.home == b.home && a.rider == b.rider; }
 
-// The spans of one beam by the nodes where they begin, which are asked for in order along the beam.
+// The spans of one beam by their first nodes, asked for in order along the beam.
 class SpansByStart {
  public:
   SpansByStart(const Mesh& mesh, int beam) : mesh_(mesh), beam_(beam) {}
 
-  /// -1 where there is none.
+  /// The span between two nodes; -1 where there is none.
   int span_between(const MeshNode& a, const MeshNode& b) {
     const bool follows = follower_ < mesh_.first_span[beam_ + 1] && is_between(follower_, a, b);
     const int span = follows ? follower_ : search(a, b);
@@ -36,13 +36,13 @@ class SpansByStart {
   }
   int at_home(int home) {
     const std::vector<MeshNode>& nodes = mesh_.nodes[beam_];
-    while (next_ < nodes.size() && nodes[next_].home < home) ++next_;  // that of a moving node is -1
+    while (next_ < nodes.size() && nodes[next_].home < home) ++next_;  // a moving node has home -1
     return next_ < nodes.size() && nodes[next_].home == home ? static_cast<int>(next_) : -1;
   }
 
   const Mesh& mesh_;
   int beam_;
-  int follower_ = mesh_.first_span[beam_];  // of the last one that was found
+  int follower_ = mesh_.first_span[beam_];  // the span after the last one found
   std::size_t next_ = 0;
 };
 

@@ -6,18 +6,18 @@
 
 namespace nurbeam {
 
-/// Per element of `to` that of `from`, a system of the same model in another mesh, which is the same: between
-/// the same nodes, on the same chart; none where there is no such. Those of beams with torsion may have other
-/// charts of their sections.
+/// Per element of `to`: the same element of `from`, a system of the same model in another mesh; null where
+/// there is none. The same element is between the same nodes and on the same chart; with torsion it may have
+/// other charts of its sections.
 template <int D>
 std::vector<const MeshElement<D>*> same_elements(const Assembly<D>& to, const Assembly<D>& from);
 
-/// By the index of an element of `from` that of the same one of `to`, -1 where there is none.
+/// Per element of `from`: the index of the same element of `to`, -1 where there is none.
 std::vector<int> kept_elements(const BeamSystem& from, const BeamSystem& to);
 
-/// Unknowns of `to` in whose rows equations that `from` satisfies may be open, its rates carried over: those
-/// of elements that `from` has not. Constraints that nodes near there open by their moves are near too. Empty
-/// where they may be in all rows: with torsion, or where riders or stops have other modes.
+/// Unknowns of `to` whose rows may be out of balance when a motion that `from` satisfies is carried over:
+/// those of elements that `from` does not have. Constraints that moves of nodes there open are near too.
+/// Empty where all rows may be open: with torsion, or where riders or stops have other modes.
 std::vector<int> changed_unknowns(const BeamSystem& from, const BeamSystem& to);
 
 }  // namespace nurbeam

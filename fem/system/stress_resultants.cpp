@@ -14,7 +14,7 @@ namespace nurbeam {
 
 namespace {
 
-// What an action adds to inertia less forces of its element, in the element's coordinates.
+// Contribution of an action to inertia less forces of its element, in the element's coordinates.
 template <int D>
 ElementVector<D> on_element(const MeshElement<D>& e, const Eigen::VectorXd& q, const PointAction& action) {
   const PointShape<D> shape = point_shape<D>(e, q, action.s);
@@ -24,8 +24,8 @@ ElementVector<D> on_element(const MeshElement<D>& e, const Eigen::VectorXd& q, c
   return -r.gradient.transpose() * action.force.head<D>() - rs.gradient.transpose() * on_slope.head<D>();
 }
 
-// Momentum that flows into the element over an end that moves over the material [N]: the inertia of form V
-// counts it, the force on the end does not.
+// Momentum that flows into the element over an end that moves over the material [N]. The inertia of form V
+// includes it; the force on the end does not.
 template <int D>
 Eigen::Matrix<double, D, 1> flux(const Assembly<D>& a, const MeshElement<D>& e, const State& state,
                                  const ElementState<D>& x, int end) {
@@ -36,11 +36,11 @@ Eigen::Matrix<double, D, 1> flux(const Assembly<D>& a, const MeshElement<D>& e, 
          material_point<D>(e, state.q, state.v, x.q[Layout::place(end)]).velocity;
 }
 
-// The forces on an element of the axis alone, and on the angles of its ends.
+// The forces on an element: on its axis, and on the angles of its ends.
 template <int D>
 struct OnElement {
   ElementVector<D> axis;
-  Eigen::Vector2d angles = Eigen::Vector2d::Zero();  // of a beam with torsion
+  Eigen::Vector2d angles = Eigen::Vector2d::Zero();  // on a beam with torsion
 
   void add(const TwistLayout::Coordinates& with_sections) {
     axis += with_sections.head<element_size<D>>();
@@ -48,7 +48,7 @@ struct OnElement {
   }
 };
 
-// What an action inside adds to inertia less forces of its element.
+// Adds the contribution of an action inside an element to its inertia less forces.
 template <int D>
 void add_action(const MeshElement<D>& e, const Eigen::VectorXd& q, const PointAction& action,
                 OnElement<D>& on) {
@@ -78,7 +78,7 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
   using Layout = ElementLayout<D>;
   const ElementState<D> x = gather<D>(e, state);
   OnElement<D> on{axis_force};
-  double torque = 0;  // per length
+  double torque = 0;  // per unit length
   if constexpr (D == 3)
     if (e.twist) {
       on.add(e.twist->element.force(gather_twist(e, state)));
@@ -115,10 +115,10 @@ SpanResultants of_span(const Assembly<D>& a, const MeshElement<D>& e, const Stat
   return {ends, places, std::move(placed)};
 }
 
-// Whether an action on an element is not the node's.
+// Whether an action on an element lies inside it and not at a node.
 template <int D>
 bool is_inside(const MeshElement<D>& e, const State& state, const PointAction& action) {
-  constexpr double at_node = 1e-9;  // of the element
+  constexpr double at_node = 1e-9;  // part of the element's length
   const double s_a = e.span->start(state.q), s_b = e.span->end(state.q);
   return std::min(action.s - s_a, s_b - action.s) > at_node * (s_b - s_a);
 }

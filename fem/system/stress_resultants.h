@@ -7,18 +7,18 @@
 
 namespace nurbeam {
 
-/// Force [N] and couple [N m] that the part of a beam beyond a section (of greater s) gives to the part
-/// before it.
+/// Force [N] and couple [N m] of the part of a beam beyond a section (of greater s) on the part before it.
 struct StressResultants {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), couple = Eigen::Vector3d::Zero();
 };
 
-/// The stress resultants in one span of the mesh: at its ends those that its element's equilibrium asks for,
+/// The stress resultants in one span of the mesh. At its ends they satisfy the equilibrium of its element,
 /// with inertia, damping and loads, so that they balance reactions, bodies and loads at nodes to round-off.
+///
 /// Between the ends the couple m is the cubic with m_s = -r_s x n (n the force) at both, which is exact in a
-/// straight beam under a constant load; point forces inside are taken out of it first. Couples are as
-/// accurate as positions, of fourth order, where the element's own curvature has second; forces, where they
-/// follow from the couple's derivative between nodes, of third.
+/// straight beam under a constant load; point forces inside are taken out first. Couples are as accurate as
+/// positions, of fourth order, where the element's own curvature has second order. Forces between nodes,
+/// which follow from the couple's derivative, have third.
 class SpanResultants {
  public:
   struct End {
@@ -27,7 +27,7 @@ class SpanResultants {
     Eigen::Vector3d slope;                                        ///< r_s [-]
     Eigen::Vector3d torque_per_length = Eigen::Vector3d::Zero();  ///< of loads, about the tangent [N m/m]
   };
-  /// A point action and the place that it has.
+  /// A point action and its position.
   struct Inside {
     PointAction action;
     Eigen::Vector3d place;  ///< [m]
@@ -35,8 +35,8 @@ class SpanResultants {
   SpanResultants(const std::array<End, 2>& ends, const std::array<Eigen::Vector3d, 2>& end_places,
                  std::vector<Inside> inside);
 
-  /// At s, where r and r_s are the position and slope. The force has no part along r_s: the axial force is
-  /// the element's own.
+  /// Stress resultants at s, where r and r_s are the position and slope. The force has no part along r_s: the
+  /// axial force is the element's own.
   StressResultants at(double s, const Eigen::Vector3d& r, const Eigen::Vector3d& slope) const;
 
  private:
@@ -45,8 +45,8 @@ class SpanResultants {
   std::vector<Inside> inside_;
 };
 
-/// Those of the spans of one state, each found when it is asked for. The state's accelerations and
-/// multipliers must belong to it. Both must outlive it.
+/// The stress resultants of the spans of one state, each computed when it is asked for. The state's
+/// accelerations and multipliers must belong to it. System and state must outlive this object.
 class CarriedBySpans {
  public:
   CarriedBySpans(const BeamSystem& system, const State& state);
@@ -56,7 +56,7 @@ class CarriedBySpans {
   const BeamSystem& system_;
   const State& state_;
   std::vector<PointAction> inside_;     // of spans, in their order
-  std::vector<Eigen::Vector3d> loads_;  // of beams
+  std::vector<Eigen::Vector3d> loads_;  // per beam
 };
 
 }  // namespace nurbeam

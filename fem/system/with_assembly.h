@@ -4,7 +4,7 @@
 
 namespace nurbeam {
 
-/// visit(assembly) with the Assembly<2> or the Assembly<3> of a system; what it returns is of one type.
+/// Returns visit(assembly) with the Assembly<2> or the Assembly<3> of a system; both calls return one type.
 template <class Visit>
 auto with_assembly(const BeamSystem& system, Visit&& visit) {
   if (const Assembly<2>* planar = system.assembly<2>()) return visit(*planar);

@@ -26,7 +26,8 @@ double buffer_force(const BeamSystem& system, const State& state, int stop) {
          buffer.damping * opening_rate(system, state, stop);
 }
 
-// Two bodies on one guide, between which there is no stop; on a ring they meet either way.
+// Adds the meetings of two bodies on one guide without a stop between them; on a ring they can meet either
+// way.
 void add_meetings(const BeamSystem& system, const State& before, std::pair<int, int> riders,
                   std::vector<ContactEvent>& events) {
   const BeamModel& model = system.model();
@@ -62,8 +63,8 @@ std::vector<ContactEvent> possible_events(const BeamSystem& system, const State&
   return events;
 }
 
-// Whether the forces at a moment pull a body off its stop, as the multiplier of a step says. That of a short
-// step tells little of a hard one: there the round-off of places is a force.
+// Whether the forces in a state pull a body off its stop, as the multiplier of a step suggests. For a hard
+// stop the multiplier of a short step tells little: round-off of places acts as a force there.
 bool is_pulled(const BeamSystem& system, const State& state, int stop) {
   if (stop_of(system, stop).buffer) return true;
   State balanced = state;
@@ -74,8 +75,8 @@ bool is_pulled(const BeamSystem& system, const State& state, int stop) {
   return contact_force(system, balanced, stop) < -contact_noise * mass * acceleration;
 }
 
-// Whether a step that begins there comes to the event: from where the state is clear of it, or after it has
-// left. What a stop pulls leaves.
+// Whether a step comes to the event, from a state that is clear of it or after the event has left. A body
+// that its stop would pull leaves it.
 bool comes_to(const BeamSystem& system, const State& before, const State& after, const ContactEvent& event) {
   const double near = tolerance(system, before, event);
   const double from = beyond(system, before, before, event), to = beyond(system, before, after, event);

@@ -9,8 +9,8 @@ namespace nurbeam {
 
 namespace {
 
-// The first place, seen from where the rider was when the mesh was made, that it has passed by now. A landing
-// just before it is not yet that: the rider may turn round there.
+// The first place that a rider has passed since the mesh was made. A landing just before the place does not
+// count yet: the rider may turn round there.
 std::optional<double> crossed_place(const BeamSystem& system, int rider, double s) {
   const BeamModel& model = system.model();
   const MeshPlan& plan = system.mesh().plan;
@@ -55,7 +55,7 @@ std::optional<Crossing> end_passed(const BeamSystem& system, const State& state)
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
     const ReferenceCurve& curve = model.beam_of(model.riders[j]).curve;
     const std::optional<PlaceMotion>& motion = model.riders[j].motion;
-    const bool by_table = motion && !motion->rows().empty();  // which is known to stay on the beam
+    const bool by_table = motion && !motion->rows().empty();  // a table is known to stay on the beam
     if (curve.closed() || by_table || system.mesh().plan.modes[j] != Carried::point) continue;
     const double s = *place(system, state, j), beyond = landing_tolerance(model, j);
     if (s < -beyond) return Crossing{j, 0, false};

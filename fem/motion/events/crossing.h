@@ -6,10 +6,10 @@
 
 namespace nurbeam {
 
-/// A sliding body that passes a place of its beam.
+/// A crossing: a sliding body passes a place of its beam.
 struct Crossing {
   int rider;
-  double s;      ///< of the place [m]
+  double s;      ///< the place [m]
   bool forward;  ///< whether s of the body grows
 };
 
@@ -19,19 +19,20 @@ struct Crossing {
 /// drifts at first order.
 std::optional<Crossing> first_crossing(const BeamSystem& system, const State& before, const State& after);
 
-/// The end of its beam, the last one or the first, that a rider's body has come to; nothing elsewhere.
+/// The last or the first end of its beam, where a rider's body is at it; nothing elsewhere.
 std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int rider, bool forward);
 
-/// The first rider whose body has come beyond an end of its beam, at that end. A prescribed motion does not.
+/// The first rider whose body has come beyond an end of its beam, at that end. A prescribed motion does not
+/// leave its beam.
 std::optional<Crossing> end_passed(const BeamSystem& system, const State& state);
 
 /// Whether a beam's end is held, by a support or by another beam.
 bool is_held(const BeamModel& model, const Crossing& end);
 
-/// A body that lands does so nearer to its place than this [m].
+/// Distance from its place within which a body lands [m].
 double landing_tolerance(const BeamModel& model, int rider);
 
-/// How far the body is beyond the place; negative before it [m].
+/// Distance of the body beyond the place; negative before it [m].
 double distance_beyond(const BeamSystem& system, const State& state, const Crossing& crossing);
 
 /// The state to which a step of another length leads, for which the body lands just before the place.

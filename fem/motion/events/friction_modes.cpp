@@ -20,12 +20,12 @@ double stick_stiffness(const BeamModel& model, int rider) {
   return model.riders[rider].friction->stiffness(model.body_of(model.riders[rider]).mass);
 }
 
-// A body that slides one way, with the spring as far out as friction goes: the bound follows with the forces.
+// Memory of a body that slides one way, with the spring stretched up to the bound, which follows the forces.
 FrictionMemory sliding(const BeamModel& model, int rider, double s, int way, double bound) {
   return {way * bound / stick_stiffness(model, rider), s, way};
 }
 
-// What is held needs no stop.
+// Opens contacts of bodies that are held and need no stop.
 void open_held_contacts(const BeamModel& model, const std::vector<bool>& held, MeshPlan& plan) {
   for (std::size_t i = 0; i < plan.closed.size(); ++i) {
     const Stop& stop = model.stops[i];
@@ -33,7 +33,7 @@ void open_held_contacts(const BeamModel& model, const std::vector<bool>& held, M
   }
 }
 
-// The forces at a moment at which some riders are held.
+// The state and forces when some riders are held.
 struct HeldMoment {
   BeamSystem system;
   State state;
@@ -55,7 +55,7 @@ std::optional<HeldMoment> hold(const MeshedState& at, const std::vector<int>& ri
   return moment;
 }
 
-// As many of the riders as can be held at once: where a rod ties a body to another one that is held, its own
+// As many of the riders as can be held at once. Where a rod ties a body to another one that is held, its own
 // place needs no hold.
 std::vector<int> independent(const MeshedState& at, const std::vector<int>& riders, double step) {
   if (hold(at, riders, step)) return riders;
@@ -67,7 +67,8 @@ std::vector<int> independent(const MeshedState& at, const std::vector<int>& ride
   return chosen;
 }
 
-// Those with friction that touch a rider's body, by others too: when it comes to rest, so do they.
+// Riders with friction whose bodies touch a rider's body, directly or through others: when it comes to rest,
+// so do they.
 std::vector<int> come_to_rest_with(const BeamSystem& system, int rider) {
   const BeamModel& model = system.model();
   std::vector<bool> together(model.riders.size(), false);
@@ -86,7 +87,7 @@ std::vector<int> come_to_rest_with(const BeamSystem& system, int rider) {
   return riders;
 }
 
-// One that has been held by its friction slides, the way that it is pulled.
+// A body that was held by its friction slides, the way that it is pulled.
 void break_loose(MeshedState& at, int rider) {
   const FrictionForce friction = *sliding_friction(*at.system, at.state, rider);
   set_friction_memory(at.system->mesh().memory, at.state.memory, rider,
@@ -94,8 +95,8 @@ void break_loose(MeshedState& at, int rider) {
                               friction.trial > 0 ? 1 : -1, friction.bound));
 }
 
-// One that has come to rest and would slide on the same way, which only round-off does where friction is just
-// what it takes to hold it: it would come to rest for ever.
+// A body that has come to rest, and would slide on the same way, sticks at the bound. Only round-off makes it
+// slide on, where friction is just enough to hold it: it would come to rest again for ever.
 void stick_at_bound(MeshedState& at, int rider, int way) {
   const BeamModel& model = at.system->model();
   const double bound = sliding_friction(*at.system, at.state, rider)->bound;
@@ -157,7 +158,7 @@ bool settle_friction(MeshedState& at, const std::vector<int>& riders, double ste
     else
       remember(j, sliding(model, j, s, stands ? 0 : rate < 0 ? -1 : 1, 0));
   }
-  // One that breaks loose changes the forces on the others.
+  // A body that breaks loose changes the forces on the others.
   for (bool all_stick = still.empty(); !all_stick;) {
     const std::vector<int> holding = independent(at, still, step);
     const std::optional<HeldMoment> moment = hold(at, holding, step);

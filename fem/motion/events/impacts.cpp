@@ -13,10 +13,10 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double shortest_rebound = 0.01;  // of a step, that is followed
-constexpr double least_rebound = 1e-10;    // of what else moves, that is followed
+constexpr double shortest_rebound = 0.01;  // part of a step; a shorter rebound is not followed
+constexpr double least_rebound = 1e-10;    // part of the fastest speed; a slower rebound is not followed
 
-// The fastest that bodies of stops move along their beams [m/s].
+// The fastest speed of bodies of stops along their beams [m/s].
 double fastest(const BeamSystem& system, const State& state) {
   double most = 0;
   for (const Stop& stop : system.model().stops)
@@ -26,7 +26,8 @@ double fastest(const BeamSystem& system, const State& state) {
   return most;
 }
 
-// Whether closed contacts keep the distance of a stop already, as that of the second of two in one place.
+// Whether closed contacts keep the distance of a stop already, as they do for the second of two stops in one
+// place.
 bool others_keep(const BeamModel& model, const std::vector<bool>& closed, int stop) {
   const int beam = static_cast<int>(model.riders.size());
   std::vector<bool> tied(model.riders.size() + 1, false);  // to the rider; the last one is the beam
@@ -42,7 +43,7 @@ bool others_keep(const BeamModel& model, const std::vector<bool>& closed, int st
   return tied[other(stop)];
 }
 
-// What makes no difference across each stop at a moment.
+// Per stop: speeds and impulses across it that make no difference.
 struct Unnoticed {
   std::vector<double> speed;  // [m/s]: a step would not tell its bodies from ones that touch
   std::vector<double>
@@ -61,8 +62,8 @@ Unnoticed unnoticed(const MeshedState& at, double step) {
   return least;
 }
 
-// Per stop: contact that is kept, or across which bodies that touch do not rebound. Impacts of others pass
-// through it at once.
+// Per stop: whether impacts of others pass through it at once, as the contact is kept, or the touching bodies
+// do not rebound.
 std::vector<bool> passing_contacts(const MeshedState& at) {
   std::vector<bool> passing = closed_contacts(*at.system);
   for (int i = 0; i < static_cast<int>(passing.size()); ++i) {
@@ -72,9 +73,10 @@ std::vector<bool> passing_contacts(const MeshedState& at) {
   return passing;
 }
 
-// The velocities without those into contacts of a set, which are closed where an impulse L keeps them: L >= 0
-// and W v >= 0, one of which is 0 in each (a linear complementarity problem, by Murty's method: the first
-// that is wrong changes, until none is). What others keep already, stops or rods, is not closed.
+// The state with velocities that do not run into the contacts `among`. These are closed where an impulse L
+// keeps them: L >= 0 and W v >= 0, and one of the two is 0 in each. This is a linear complementarity problem,
+// solved by Murty's method: the first contact that is wrong changes, until none is. Contacts that other stops
+// or rods keep already are not closed.
 std::optional<MeshedState> stopped(const MeshedState& at, std::vector<bool> among, const Unnoticed& least,
                                    double step) {
   std::vector<bool> closed = closed_contacts(*at.system);
@@ -105,7 +107,7 @@ std::optional<MeshedState> stopped(const MeshedState& at, std::vector<bool> amon
   }
 }
 
-// Without the contacts across which the velocities are some.
+// Opens the closed contacts across which bodies still move.
 MeshedState with_contacts_that_stay(const MeshedState& at, const Unnoticed& least) {
   std::vector<bool> closed = closed_contacts(*at.system);
   for (int i = 0; i < static_cast<int>(closed.size()); ++i)
@@ -113,9 +115,9 @@ MeshedState with_contacts_that_stay(const MeshedState& at, const Unnoticed& leas
   return with_contacts(at, std::move(closed));
 }
 
-// The state after an impact at a stop. What does not rebound comes to rest first: a row of bodies that touch
-// so is one body for what meets it. Of endlessly many at one moment, of which each loses energy, the rest
-// loses all that it can.
+// The state after an impact at a stop. Contacts without rebound come to rest first: a row of bodies that
+// touch so is one body for the body that meets it. When impacts at one moment count as endlessly many, and
+// each loses energy, this one loses all that it can.
 std::optional<MeshedState> after_impact(const MeshedState& at, int stop, const Unnoticed& least, double step,
                                         Arrival arrival) {
   const double given = stop_of(*at.system, stop).restitution,
@@ -192,7 +194,7 @@ std::optional<MeshedState> hit_stop(const MeshedState& at, int stop, double step
   among[stop] = false;
   std::optional<MeshedState> kept = stopped(with_contact(*after, stop, true), std::move(among), least, step);
   if (!kept) return open;  // rods keep it there
-  // What is open of the contact a short step would close at a speed of its own.
+  // A short step would close an open rest of the contact at a speed of its own.
   close_constraints_to_round_off(*kept->system, kept->state);
   return kept;
 }

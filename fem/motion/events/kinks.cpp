@@ -19,7 +19,8 @@ std::pair<double, double> slopes_at(const TimeTable& table, std::size_t row) {
   return {row > 0 ? slope(row - 1) : 0, row + 1 < table.size() ? slope(row) : 0};
 }
 
-// Of a load that moves: place_of() knows it up to twice its round-off beyond the end.
+// Adds the times at which a moving load leaves its beam: place_of() knows it up to twice its round-off beyond
+// the end.
 void add_leaving(const LoadAtPlace& load, const Beam& beam, std::vector<double>& times) {
   if (load.speed == 0 || beam.is_ring()) return;
   const double length = beam.curve.length(), way = load.speed > 0 ? length - load.s : -load.s;

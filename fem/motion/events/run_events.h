@@ -4,21 +4,21 @@
 
 namespace nurbeam {
 
-/// What a change of the mesh is called among the events. Precondition: not MeshChange::none.
+/// The kind of event that a change of the mesh is. Precondition: not MeshChange::none.
 EventKind kind_of(MeshChange change);
 
-/// An event with the body of a rider that is about to happen: what is known before it.
+/// An event of a rider's body that is about to happen, with the data before it.
 RunEvent event_before(const MeshedState& at, EventKind kind, int rider);
 
-/// The same where the sums over its beam are known.
+/// An event with the data before it, where the sums over the rider's beam are known.
 RunEvent event_before(const MeshedState& at, EventKind kind, int rider, const MotionSums& sums);
 
-/// Adds what is known after it.
+/// Adds the data after the event.
 void finish_event(const MeshedState& at, RunEvent& event);
 void finish_event(const MotionSums& sums, RunEvent& event);
 
-/// What a constraint impulse [N s] gives to the momentum through the supports' positions [kg m/s]; the other
-/// constraints (directions, bodies on the beam) give none. An empty impulse is none.
+/// Momentum that a constraint impulse [N s] gives through the supports' positions [kg m/s]; the other
+/// constraints (directions, bodies on the beam) give none. An empty impulse gives zero.
 Eigen::Vector3d support_impulse(const MeshedState& at, const Eigen::VectorXd& impulse);
 
 }  // namespace nurbeam

@@ -10,12 +10,12 @@
 
 namespace nurbeam {
 
-/// The list of what a step ends at, beside the places that bodies cross (crossing.h) and the ends of beams:
-/// all that has to be said of a new one outside its own file. Each has a `part` of the step, about, at which
-/// it happens, and beyond(), tolerance() and apply().
+/// The list of events at which a step ends, besides the places that bodies cross (crossing.h) and the ends of
+/// beams. A new event needs a change here and nowhere else outside its own file. Each has the approximate
+/// `part` of the step at which it happens, and beyond(), tolerance() and apply().
 using StepEvent = std::variant<FrictionChange, ContactEvent, TautEvent>;
 
-/// What a step does not begin with: see first_contact and first_friction_change.
+/// Events that cannot happen at the start of a step: see first_contact and first_friction_change.
 struct StepStart {
   bool nothing_leaves, nothing_turns;
 };
@@ -23,10 +23,10 @@ struct StepStart {
 std::optional<StepEvent> first_event(const BeamSystem& system, const State& before, const State& after,
                                      StepStart start);
 /// The state to which a step of another length leads, just before the event; the state before the step where
-/// that begins at the event.
+/// the step begins at the event.
 State landed(const BeamSystem& system, Integrator& integrator, const StepTaken& taken,
              const StepEvent& event);
-/// The body of which rider it is about; not of connectors.
+/// The rider whose body an event is about. Precondition: no TautEvent.
 int rider_of(const BeamModel& model, const StepEvent& event);
 
 }  // namespace nurbeam

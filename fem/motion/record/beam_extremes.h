@@ -6,12 +6,12 @@
 /// How extremes along a beam are found.
 namespace nurbeam {
 
-/// An extreme of what elements carry at their samples: the value of the largest size.
+/// An extreme among the values that elements have at their samples: the value of the largest size.
 struct ElementExtreme {
   Extreme BeamRecord::*extreme;
   Eigen::Vector4d ElementRecord::*values;
   double (*size)(double);
-  bool of_torsion = false;  ///< of beams with torsion alone
+  bool of_torsion = false;  ///< whether beams with torsion alone have it
 
   static double itself(double x) { return x; }
   static double negative(double x) { return -x; }
@@ -27,13 +27,13 @@ inline constexpr ElementExtreme element_extremes[] = {
     {&BeamRecord::torque_max, &ElementRecord::torque, ElementExtreme::magnitude, true},
     {&BeamRecord::twist_max, &ElementRecord::twist, ElementExtreme::magnitude, true}};
 
-/// Takes over a value where it is larger by `size`, or the first.
+/// Takes a value over if it is larger by `size`, or the first.
 inline void keep(Extreme& extreme, double value, double s, double (*size)(double)) {
   if (std::isnan(value)) return;
   if (std::isnan(extreme.value) || size(value) > size(extreme.value)) extreme = {value, s};
 }
 
-/// How far a node is from where it is drawn [m].
+/// Distance of a node from where it is drawn [m].
 inline double displacement(const ReferenceCurve& curve, const Eigen::Vector3d& position, double s) {
   return (position - curve.position(s)).norm();
 }

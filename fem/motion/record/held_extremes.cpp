@@ -10,7 +10,7 @@ namespace nurbeam {
 
 namespace {
 
-// Values that are equal but for this part of them count as one extreme: those of a shape that is symmetrical.
+// Values that differ by less than this part count as one extreme, as in a symmetrical shape.
 bool are_equal(double value, double extreme) { return std::abs(value - extreme) <= 1e-6 * std::abs(extreme); }
 
 constexpr int samples = 4;  // of an element, from end to end

@@ -5,7 +5,7 @@
 
 namespace nurbeam {
 
-/// Thrown out of a search that is to end, and caught where that began.
+/// Thrown to end a search, and caught where the search began.
 struct Interruption {};
 
 /// A share of a model's loads at a time.
@@ -13,8 +13,8 @@ struct Loading {
   double load, t;
 };
 
-/// A system whose load factor 0 is one loading and 1 another: on the way from an equilibrium under the first.
-/// Its tangent throws Interruption where the search is to end.
+/// A system between two loadings: load factor 0 is `from`, 1 is `to`, on the way from an equilibrium under
+/// `from`. The tangent throws Interruption when the search is to end.
 class LoadedBetween final : public SecondOrderSystem {
  public:
   LoadedBetween(const SecondOrderSystem& system, Loading from, Loading to,

@@ -4,11 +4,11 @@
 
 namespace nurbeam {
 
-/// What moves furthest in a motion that nothing resists.
+/// The loose part: the beam or body that moves furthest in a motion that nothing resists.
 struct LoosePart {
   std::string name;
-  bool is_body = false;                                 ///< else a beam
-  double s = 0;                                         ///< of the beam's node [m]
+  bool is_body = false;                                 ///< false: a beam
+  double s = 0;                                         ///< place of the beam's node [m]
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of unit length
 };
 

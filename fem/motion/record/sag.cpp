@@ -19,7 +19,7 @@ Chord chord_of(const BeamSystem& system, const State& state, int beam) {
           span_control_points(system, state, first_span[beam + 1] - 1), system.model().gravity};
 }
 
-// What has no sag, as it has no downwards or no line to be below.
+// Whether a beam has no sag, without gravity or with a chord along gravity.
 bool has_none(const Chord& chord, const Eigen::Vector3d& gravity) {
   return gravity.norm() == 0 || chord.is_vertical();
 }
@@ -31,7 +31,8 @@ int lowest_of(const std::vector<ElementRecord>& elements, Chord chord) {
   return chord.lowest();
 }
 
-// Of that element and its neighbours, among those from `first` to `end`; none below: depth 0.
+// The lowest place in an element and its neighbours, among elements `first` to `end`; depth 0 if none is
+// below the chord.
 template <class ControlPoints>
 Lowest lowest_near(int element, int first, int end, const Chord& chord, const ControlPoints& control_points) {
   Lowest found{.element = element};

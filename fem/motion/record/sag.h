@@ -8,19 +8,19 @@
 
 namespace nurbeam {
 
-/// The straight line between the ends of a beam, and how far its elements, looked at one after the other,
-/// hang below it along `gravity`, whose size does not count.
+/// The chord of a beam, from end to end, and the depth of its elements below it along `gravity`, whose
+/// magnitude does not count. Elements are looked at in order.
 class Chord {
  public:
   /// `first` and `last`: the control points of the elements at the ends.
   Chord(const Eigen::Matrix4d& first, const Eigen::Matrix4d& last, const Eigen::Vector3d& gravity);
 
   bool is_vertical() const { return across_.norm() <= 1e-9 * std::max(along_.norm(), 1e-300); }
-  /// How far a point of an element is below [m].
+  /// Depth of a point of an element below the chord [m].
   double depth(const RationalCubic& cubic, double u) const;
   /// Looks at the next element.
   void look_at(const Eigen::Matrix4d& control_points);
-  /// Of the elements so far that whose middle is the lowest.
+  /// The element with the lowest middle among those looked at.
   int lowest() const { return lowest_; }
 
  private:
@@ -29,22 +29,22 @@ class Chord {
   double deepest_ = 0;
 };
 
-/// A place in the element of that number, of a beam or of the mesh, and how far it is below the chord [m].
+/// The lowest place: its element, numbered in the beam or in the mesh, and its depth below the chord [m].
 struct Lowest {
   int element = 0;
   double u = 0, depth = 0;
 };
 
-/// The element whose middle is the lowest so, of those that sag looks at first.
+/// The element with the lowest middle below the chord, which sag() looks at first.
 int lowest_element(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity);
-/// How far a beam hangs below the straight line between its ends, at most, along `gravity` [m]; 0 where it is
-/// nowhere below. NaN without gravity, and where the ends lie above each other, as those of a ring do.
+/// Sag: the maximum depth of a beam below the straight line between its ends, along `gravity` [m]; 0 where it
+/// is nowhere below. NaN without gravity, and where the ends lie above each other, as those of a ring do.
 /// Precondition: there are elements.
 double sag(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity);
-/// The same of a state, and where it is, from the spans around that with the lowest middle, and those at the
-/// ends.
+/// Sag of a beam in a state, and its place, from the spans around `lowest`, the span with the lowest middle,
+/// and those at the ends.
 Lowest sag_near(const BeamSystem& system, const State& state, int beam, int lowest);
-/// At a place of the mesh, 0 where that is not below; NaN as sag.
+/// Depth of a place of the mesh below the chord [m], 0 where it is not below; NaN in the cases of sag().
 double sag_at(const BeamSystem& system, const State& state, int beam, const Lowest& place);
 
 }  // namespace nurbeam

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int at_once = 4096;  ///< elements that are handed over together
 
-// Of its elements.
+// Finds the extremes among the elements of a record.
 void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
   for (const ElementRecord& e : record.elements)
     for (int i = 0; i < 4; ++i) {
@@ -32,7 +32,7 @@ void find_displacement(const ReferenceCurve& curve, BeamRecord& record) {
   }
 }
 
-// A guide, which is as it is drawn: its segments, with the strains and forces of none.
+// The record of a guide, which stays as drawn: its segments, with zero strains and forces.
 BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& gravity) {
   BeamRecord record;
   for (int j = 0; j < curve.segment_count(); ++j) {
@@ -57,8 +57,8 @@ BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& grav
   return record;
 }
 
-// The elements of spans that follow one another. `twisted`: at the end of the one before, since the start of
-// the beam.
+// Records the elements of spans that follow one another. `twisted`: twist since the start of the beam, at the
+// end of the span before; it is moved on.
 void record_spans(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int first,
                   int end, double& twisted, std::vector<ElementRecord>& elements) {
   elements.reserve(static_cast<std::size_t>(end - first));
@@ -75,7 +75,7 @@ void hand_over(int beam, const TakeElements& take, BeamRecord& record) {
   record.elements.clear();
 }
 
-// Hands the elements over; their extremes and the sag stay.
+// Hands the elements over in stretches; their extremes and the sag stay in the record.
 void record_in_stretches(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int b,
                          const TakeElements& take, BeamRecord& record) {
   const int first = system.mesh().first_span[b], end = system.mesh().first_span[b + 1];
@@ -122,7 +122,7 @@ BeamRecord record_with(const CarriedBySpans& carried, const BeamSystem& system, 
   return record;
 }
 
-// Without its section.
+// The record of a place without its section.
 ProbeRecord record_place(const BeamSystem& system, const State& state, const ProbePlace& probe) {
   const MaterialPoint<3> p = probe.span < 0 ? material_point(system, state, probe.beam, probe.s)
                                             : material_point_in(system, state, probe.span, probe.s);

@@ -10,7 +10,7 @@
 
 namespace nurbeam {
 
-/// The least or the greatest value along a beam, and its place.
+/// The minimum or the maximum value along a beam, and its place.
 struct Extreme {
   double value = std::numeric_limits<double>::quiet_NaN();
   double s = std::numeric_limits<double>::quiet_NaN();  ///< reference arc length [m]
@@ -18,17 +18,17 @@ struct Extreme {
 
 struct BeamRecord {
   std::vector<ElementRecord> elements;
-  std::size_t handed_over = 0;  ///< elements that TakeElements has taken, which are not among these
+  std::size_t handed_over = 0;  ///< elements that TakeElements has taken; they are not among `elements`
   std::vector<Eigen::Vector3d> node_positions, node_slopes;  ///< [m], [-] (left slope at a kink)
   std::vector<double> node_s;                                ///< [m]
-  double length = 0;                                         ///< deformed [m]
-  /// Below the line of its ends [m]; NaN where there is none (sag.h).
+  double length = 0;                                         ///< deformed length [m]
+  /// Sag below the line between the ends [m]; NaN where there is none (sag.h).
   double sag = std::numeric_limits<double>::quiet_NaN();
   Extreme axial_force_min, axial_force_max;  ///< [N]
-  Extreme moment_max, shear_force_max;       ///< the largest magnitude [N m], [N]
-  Extreme stress_max;                        ///< likewise [Pa]; NaN where the section does not say
-  Extreme displacement_max;                  ///< of a node from the drawing [m]
-  /// Of a beam with torsion, the largest magnitude, else NaN [N m], [rad], [Pa].
+  Extreme moment_max, shear_force_max;       ///< maximum magnitude [N m], [N]
+  Extreme stress_max;        ///< maximum magnitude [Pa]; NaN where the section does not give it
+  Extreme displacement_max;  ///< maximum displacement of a node from the drawing [m]
+  /// Maximum magnitudes for a beam with torsion, else NaN [N m], [rad], [Pa].
   Extreme torque_max, twist_max, von_mises_max;
 };
 
@@ -48,43 +48,43 @@ struct BodyRecord {
   std::optional<double> s;      ///< empty after it has left its beam [m]
   Eigen::Vector3d joint_force;  ///< of the beam on the body [N]
   double holding_force = 0;     ///< along the beam, where its place is prescribed or it has stopped [N]
-  /// Of its friction along the beam, positive towards the beam's end, and whether it sticks (1) or slides
-  /// (0); of the drive that prescribes its place; NaN without [N], [-], [N].
+  /// Friction force along the beam, positive towards the beam's end; whether the body sticks (1) or slides
+  /// (0); force of the drive that prescribes its place. NaN without friction or drive [N], [-], [N].
   double friction_force = SectionRecord::no_number, stuck = SectionRecord::no_number,
          drive_force = SectionRecord::no_number;
 };
 
-/// What a support gives to its beam, or the second of two joined beams to the first.
+/// Force and couple of a support on its beam, or of the second of two joined beams on the first.
 struct ReactionRecord {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();                                 ///< [m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), couple = Eigen::Vector3d::Zero();  ///< [N], [N m]
 };
 
 struct ConnectorRecord {
-  double length = 0;  ///< or its part along the connector's direction [m]
-  double force = 0;   ///< that pulls the ends together [N]
-  /// Where its ends are [m]; NaN in results of earlier versions.
+  double length = 0;  ///< length, or its part along the connector's direction [m]
+  double force = 0;   ///< force that pulls the ends together [N]
+  /// Positions of the ends [m]; NaN in results of earlier versions.
   Eigen::Vector3d from = Eigen::Vector3d::Constant(SectionRecord::no_number),
                   to = Eigen::Vector3d::Constant(SectionRecord::no_number);
 };
 
 struct EnergyRecord {
-  double kinetic = 0, gravity = 0, axial = 0, bending = 0;  ///< [J]; bending: and torsion
+  double kinetic = 0, gravity = 0, axial = 0, bending = 0;  ///< [J]; bending includes torsion
   double dissipated = 0;                                    ///< by damping and impacts, since the start [J]
-  double input = 0;   ///< work of loads but weight and of prescribed motions, since the start [J]
-  double total = 0;   ///< what should not change: the sum, less the input [J]
-  double spring = 0;  ///< of what is elastic beside the beams [J]
+  double input = 0;   ///< work of prescribed motions and of loads without weight, since the start [J]
+  double total = 0;   ///< conserved total: the sum of energies, less the input [J]
+  double spring = 0;  ///< energy of elastic parts other than beams [J]
 };
 
 /// One accepted step of the integrator.
 struct StepRecord {
-  double time = 0;            ///< at its end [s]
+  double time = 0;            ///< at the end of the step [s]
   double size = 0;            ///< [s]
   int newton_iterations = 0;  ///< over all attempts
   int rejected = 0;           ///< attempts thrown away
 };
 
-/// Everything that is stored at one output time, in the model's own coordinates or in those of the world.
+/// All that is stored at one output time, in the model's own coordinates or in those of the world.
 struct Snapshot {
   double time = 0;
   std::vector<ProbeRecord> probes;
@@ -102,50 +102,50 @@ struct Snapshot {
 struct ProbePlace {
   int beam;
   double s;       ///< [m]
-  int span = -1;  ///< of the mesh, as whose element has it; that which holds it where none is given
+  int span = -1;  ///< span of the mesh whose element holds the place; -1: the span that holds s
 };
 
 /// Names in the order of the vectors of a Snapshot.
 struct SnapshotNames {
   std::vector<std::string> probes, bodies, beams, reactions, connectors;
-  /// Beams have torsion: what is known of their sections' own axes belongs to the results.
+  /// Whether beams have torsion, so that results include the sections' own axes.
   bool sections = false;
-  /// Bodies have friction; something is elastic beside the beams.
+  /// Whether bodies have friction; whether the model has elastic parts other than beams.
   bool friction = false, springs = false;
 };
 
-/// What a snapshot is taken of, besides points, bodies, reactions and connectors.
+/// The contents of a snapshot, besides points, bodies, reactions and connectors.
 struct SnapshotContents {
   bool beams = true;
   bool probes = true;
-  bool sections = true;  ///< of probes: else their SectionRecord says nothing
+  bool sections = true;  ///< sections of probes; without them their SectionRecord is empty
   bool reactions = true;
   bool energy = true;
 };
 
-/// Takes elements of a beam, in its order, those of one beam after those of the one before: some at a time,
-/// where a record of all would take much room.
+/// Takes elements of beams in their order, some at a time, beam after beam: a record of all would take much
+/// memory.
 using TakeElements = std::function<void(int beam, std::vector<ElementRecord>& elements)>;
 
 /// The span that holds a place; -1 on a rigid guide, which has none.
 int span_of(const BeamSystem& system, const State& state, const ProbePlace& probe);
 
-/// The twist since the drawing of what is in a span, at its start and against that of its beam [rad]; NaN
-/// without torsion, but for the first.
+/// The twist since the drawing that a span has at its start, against the start of its beam [rad]; NaN without
+/// torsion, except for the first span.
 double twist_before(const BeamSystem& system, const State& state, int span);
 
 /// One beam of a state.
 BeamRecord record_beam(const BeamSystem& system, const State& state, int beam);
-/// The beams of a state. `take`: takes their elements, of which the records then have none.
+/// Records of the beams of a state. `take`: takes over their elements, so that the records have none.
 std::vector<BeamRecord> record_beams(const BeamSystem& system, const State& state,
                                      const TakeElements& take = nullptr);
 
-/// As a snapshot has it (dissipated: none).
+/// The energies of a snapshot, without dissipation.
 EnergyRecord record_energy(const SystemEnergy& energy);
 
-/// A state with its beams, bodies, probes and energies (dissipated: none), in the model's own coordinates;
-/// what is known of steps is left empty, as is what is not among `contents`. `take`: as
-/// record_beams has it.
+/// A snapshot of a state with its beams, bodies, probes and energies, without dissipation, in the model's own
+/// coordinates. Records of steps are left empty, and all that `contents` leaves out. `take`: see
+/// record_beams.
 Snapshot record_snapshot(const BeamSystem& system, const State& state, const std::vector<ProbePlace>& probes,
                          const SnapshotContents& contents = {}, const TakeElements& take = nullptr);
 

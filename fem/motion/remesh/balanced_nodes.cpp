@@ -31,8 +31,8 @@ class NodePatch {
     leave_out_constrained(state);
   }
 
-  // Newton's method with a stiffness at rest that is kept while it contracts. Nothing moves where that does
-  // not lead to a place near by.
+  // Newton's method with a stiffness at rest that is reused while it contracts. Nothing moves where Newton's
+  // method does not lead to a place near by.
   void balance(State& next) const {
     constexpr int most_moves = 20;
     constexpr double far = 0.1, enough = 1e-12, slow = 0.1;
@@ -58,7 +58,7 @@ class NodePatch {
   }
 
  private:
-  // A body that was a node stays where it is.
+  // Takes the coordinates of a node that may move. A body that was a node stays where it is.
   void take(int beam, const MeshNode& node, bool is_added) {
     const Hold hold = node.home >= 0 ? system_.model().beams[beam].home[node.home].hold : Hold::nothing;
     for (int k = 0; k < system_.dimension(); ++k) {
@@ -88,7 +88,7 @@ class NodePatch {
     return {system_, still, {.stiffness = 1}, free_};
   }
 
-  // Of a move, slopes by the length of the element [m].
+  // The size of a move, with slopes multiplied by the length of the element [m].
   double size(const Eigen::VectorXd& move) const {
     double largest = 0;
     for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -109,7 +109,7 @@ class NodePatch {
 
 void balance_added_nodes(const BeamSystem& from, const BeamSystem& to, State& next) {
   const NodeSet added = without_pointwise_strain(to.model(), new_nodes(from, to));
-  const bool starts = next.a.isZero(0) && !next.v.isZero(0);  // its accelerations are not known yet
+  const bool starts = next.a.isZero(0) && !next.v.isZero(0);  // accelerations are not known yet
   if (added.empty() || starts) return;
   NodePatch(to, next, added).balance(next);
 }

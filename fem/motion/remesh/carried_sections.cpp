@@ -14,13 +14,14 @@ namespace nurbeam {
 
 namespace {
 
-// The present mesh of a model in space, some of whose beams have torsion.
+// The sections of the present mesh of a model in space, some of whose beams have torsion.
 class PresentSections {
  public:
   PresentSections(const BeamSystem& system, const State& state)
       : system_(system), state_(state), elements_(system.assembly<3>()->elements()) {}
 
-  // `turned`: of the nodes of the beam, empty without `like`, the charts of a neighbouring model.
+  // The charts of a span of a new mesh. `like`: the charts of a neighbouring model, which may be null;
+  // `turned`: per node of the beam, see turned(); empty without `like`.
   MeshPlan::SectionCharts of(const Mesh& fresh, const MeshSpan& span, const MeshPlan::SectionCharts* like,
                              const std::vector<double>& turned) const {
     const int a = kept(fresh, span, 0), b = kept(fresh, span, 1);
@@ -37,8 +38,8 @@ class PresentSections {
             like ? like->turn : turn(span, a, b)};
   }
 
-  // By how much more the charts of kept nodes are turned than those of a neighbouring model, and new nodes as
-  // kept ones before them.
+  // Per node of a beam: the angle by which its chart is turned further than that of a neighbouring model.
+  // Kept nodes give it; new nodes take that of the kept node before them.
   std::vector<double> turned(const Mesh& fresh, int beam,
                              std::span<const MeshPlan::SectionCharts> like) const {
     std::vector<std::optional<double>> known(fresh.nodes[beam].size());
@@ -49,7 +50,7 @@ class PresentSections {
           known[end == 0 ? span.node_a : span.node_b] =
               angle_in(like[i].charts[end], section_chart(system_, beam, present, end));
     }
-    // Before the first kept node of a ring is its last.
+    // On a ring the last kept node comes before the first one.
     const auto is_known = [](const std::optional<double>& each) { return each.has_value(); };
     const bool is_ring = system_.model().beams[beam].is_ring();
     const auto last = std::find_if(known.rbegin(), known.rend(), is_known);
@@ -60,7 +61,7 @@ class PresentSections {
     return all;
   }
 
-  // The present element between two present nodes, if there is one.
+  // The present element between two present nodes, or null.
   const MeshElement<3>* element_between(int beam, int node_a, int node_b) const {
     const auto found = std::find_if(elements_.begin(), elements_.end(), [&](const MeshElement<3>& e) {
       return e.span->beam == beam && e.span->node_a == node_a && e.span->node_b == node_b;
@@ -68,8 +69,8 @@ class PresentSections {
     return found == elements_.end() ? nullptr : &*found;
   }
 
-  // Calls visit(element, s_0, s_1) for each present element between two places, with the part of it that lies
-  // between them, in its own count of s.
+  // Calls visit(element, s_0, s_1) for each present element between two places. [s_0, s_1] is the part of the
+  // element that lies between them, as the element counts s.
   template <class Visit>
   void for_each_part(int beam, double s_a, double s_b, Visit&& visit) const {
     const double nothing = 1e-12 * (s_b - s_a);
@@ -90,7 +91,7 @@ class PresentSections {
     return same_node(system_.mesh().nodes[span.beam], end == 0 ? fresh.node_a(span) : fresh.node_b(span));
   }
 
-  // Of a new span, between the present nodes a and b where these are its ends.
+  // The turn of a new span, whose ends are the present nodes a and b where these are not -1.
   double turn(const MeshSpan& span, int a, int b) const {
     if (const MeshElement<3>* const same = element_between(span.beam, a, b))
       return same->twist->element.turn(gather_twist(*same, state_.q));
@@ -114,7 +115,7 @@ int same_node(const std::vector<MeshNode>& nodes, const MeshNode& wanted, int li
     return node.home == wanted.home && node.rider == wanted.rider;
   };
   if (likely < static_cast<int>(nodes.size()) && is_same(nodes[likely])) return likely;
-  // In both meshes they are ordered by s, which that of a home node is in each.
+  // Both meshes order their nodes by s, and a home node has one s in both.
   auto found = nodes.end();
   if (wanted.home >= 0)
     found = std::lower_bound(nodes.begin(), nodes.end(), wanted.s,

@@ -11,7 +11,7 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-// The chart segment of a new span: that of its middle, -1 for arc length.
+// The chart segment of a new span, by its middle; -1 for arc length.
 int segment_of(const BeamModel& model, const Mesh& mesh, int span) {
   if (is_arc_length_span(model, mesh, span)) return -1;
   const MeshSpan& s = mesh.spans[span];
@@ -26,7 +26,7 @@ Weights part_of(const Eigen::Vector4d& weights, double from, double to) {
   return {part(3, 0), part(3, 1), part(3, 2), part(3, 3)};
 }
 
-// From the old spans `first` and `last`, whose common node the new one has lost.
+// Merged weights from the old spans `first` and `last`, whose common node the new mesh has lost.
 Weights merged(const BeamSystem& system, const State& state, int first, int last, const MeshSpan& span,
                int segment) {
   const ReferenceCurve& curve = system.model().beams[span.beam].curve;

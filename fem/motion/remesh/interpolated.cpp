@@ -1,4 +1,4 @@
-// A motion as a new mesh takes it over, before velocities are projected and energy is kept.
+// A motion as a new mesh takes it over, before velocities are projected and energy is conserved.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,8 @@ namespace nurbeam {
 
 namespace {
 
-// Takes coordinates and their rates over from another mesh, those that follow one another in both at once.
+// Copies coordinates and their rates from another mesh. Coordinates that follow one another in both meshes
+// are copied at once.
 class KeptCoordinates {
  public:
   KeptCoordinates(const State& from, State& to) : from_(from), to_(to) {}
@@ -35,7 +36,7 @@ class KeptCoordinates {
     }
     count_ += count;
   }
-  // Position, slopes, sections and place of a node.
+  // Takes position, slopes, sections and place of a node.
   void take(const MeshNode& node, const MeshNode& kept, int D) {
     take(node.r, kept.r, D);
     take(node.slope_left, kept.slope_left, D);
@@ -57,10 +58,10 @@ class KeptCoordinates {
 
   const State& from_;
   State& to_;
-  int target_ = 0, source_ = 0, count_ = 0;  // not yet copied
+  int target_ = 0, source_ = 0, count_ = 0;  // coordinates not yet copied
 };
 
-// A node, as it moves on or with the curve of another mesh.
+// A node on the curve of another mesh, at rest or moving over it.
 struct NodeOnCurve {
   double s, rate;  // its place [m], [m/s]
   MaterialPoint<3> point;
@@ -74,16 +75,16 @@ struct NodeOnCurve {
   Eigen::Vector3d slope_rate() const { return point.velocity_s + rate * point.rss; }
 };
 
-// A motion a moment before and after a state.
+// The motion a moment before and a moment after a state.
 struct Around {
   State before, after;
-  double length = 1;  // between them [s]
+  double length = 1;  // time between them [s]
 
   Around(const BeamSystem& system, const State& state) : before(state), after(state) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const MeshSpan& span : system.mesh().spans)
       shortest = std::min(shortest, span.end(state.q) - span.start(state.q));
-    constexpr double far = 1e-3;  // of that length, in that time
+    constexpr double far = 1e-3;  // part of that length, moved in that time
     const double rate = state.v.lpNorm<Eigen::Infinity>() / shortest +
                         std::sqrt(state.a.lpNorm<Eigen::Infinity>() / shortest);
     if (rate > 0) length = std::min(far / rate, 1.0);
@@ -98,7 +99,7 @@ struct Around {
   }
 };
 
-// `i`: of the nodes of the beam in the new mesh.
+// Places a new node on the curve of the old mesh. `i`: index among the nodes of the beam in the new mesh.
 void place_node(const BeamSystem& from, const State& state, const Around& around, const BeamSystem& to,
                 int beam, int i, State& next) {
   const int D = from.dimension();
@@ -113,7 +114,7 @@ void place_node(const BeamSystem& from, const State& state, const Around& around
     next.v.segment(slope, D) = now.slope_rate().head(D);
     next.a.segment(slope, D) = (after.slope_rate() - before.slope_rate()).head(D) / around.length;
   }
-  // What the node sees is the spin of the material and, as it moves over it, the twist.
+  // The rate of the node's angle is the spin of the material, plus the twist as the node moves over it.
   if (node.angle_left >= 0) {
     const Eigen::Matrix3d section = section_point(from, state, beam, now.s).triad.matrix();
     const double spin =
@@ -130,7 +131,7 @@ void place_node(const BeamSystem& from, const State& state, const Around& around
   next.v[node.place] = now.rate;
 }
 
-// Takes those that both meshes have, and returns the others: beams and indices.
+// Takes the nodes that both meshes have, and returns the new ones: beams and indices.
 std::vector<std::pair<int, int>> take_nodes(const State& state, const Mesh& old, const Mesh& mesh,
                                             State& next) {
   const int D = mesh.dimension;
@@ -158,7 +159,8 @@ void take_bodies(const State& state, const Mesh& old, const Mesh& mesh, State& n
       kept.take(mesh.riders[j].place, old.riders[j].place, 1);
 }
 
-// The bubbles of twist: those of elements that the old mesh had too, or its twist.
+// Sets the bubbles of twist: kept for elements that the old mesh has too, else from the twist of the old
+// mesh.
 void set_bubbles(const BeamSystem& from, const State& state, const BeamSystem& to, State& next) {
   const Mesh &old = from.mesh(), &mesh = to.mesh();
   for (const MeshSpan& span : mesh.spans) {

@@ -15,10 +15,10 @@ struct LeastMove {
   double mu;
 };
 
-/// The least in the mass norm, min d'Md/2, that takes an excess e of energy away, g'd + d'Kd/2 = -e, or to
-/// the lowest (for e < 0 the highest) where the parabola has no such place.
+/// The least move in the mass norm, min d'Md/2, that takes an excess e of energy away, g'd + d'Kd/2 = -e.
+/// Where the parabola has no such place, the move to its lowest one (for e < 0 to its highest).
 LeastMove least_move(const EnergyParabola& energy, double e);
-/// The same where mu is known of a neighbouring parabola and excess.
+/// The least move where mu of a neighbouring parabola and excess is known.
 LeastMove least_move(const EnergyParabola& energy, double e, double near);
 
 }  // namespace nurbeam

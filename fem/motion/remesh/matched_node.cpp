@@ -10,7 +10,7 @@ namespace nurbeam {
 
 namespace {
 
-// The conditions on a node between two spans: what is left of them, and their gradient in (r, l r_s).
+// The conditions on a node between two spans: their residuals, and their gradient in (r, l r_s).
 struct Conditions {
   Eigen::Vector3d excess;
   Eigen::Matrix<double, 3, 6> gradient;
@@ -25,7 +25,7 @@ class NodeMatch {
     wanted_ << length * strain.mean_part(0, xi), length * strain.mean_part(xi, 1), length * strain.at(xi);
   }
 
-  // Newton's method with least moves; whether all conditions are met, else nothing has moved.
+  // Newton's method with least moves. Returns whether all conditions are met; else nothing has moved.
   bool move(State& next) const {
     const std::vector<int> moved = coordinates();
     const Eigen::VectorXd start = next.q(moved);

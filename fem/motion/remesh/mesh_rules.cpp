@@ -13,7 +13,8 @@ namespace nurbeam {
 
 namespace {
 
-// The present plan but for constant weights and charts, which still belong to the places of the old one.
+// The present plan with the riders' present places. Its constant weights and charts still belong to the old
+// places.
 MeshPlan plan_at(const BeamSystem& system, const State& state) {
   MeshPlan plan = system.mesh().plan;
   for (int j = 0; j < static_cast<int>(plan.places.size()); ++j)
@@ -21,8 +22,8 @@ MeshPlan plan_at(const BeamSystem& system, const State& state) {
   return plan;
 }
 
-// The rules of length control for one rider, seen from its two neighbours. Home nodes and places of a ring go
-// on over the seam (Beam::home_place), as seen from the rider.
+// The rules of length control for one rider, from its two neighbours. On a ring, home nodes and places go on
+// over the seam (Beam::home_place), as seen from the rider.
 class RiderRules {
  public:
   RiderRules(const BeamSystem& system, const State& state, const LengthControl& control, int rider,
@@ -43,7 +44,8 @@ class RiderRules {
     if (mesh_.plan.modes[joint_] != Carried::free) watch_neighbours();
   }
 
-  // Where the rider may be for apply() to find nothing, whichever way it moves, as it has found nothing.
+  // The range of the rider's place in which apply(), having found nothing, would find nothing again,
+  // whichever way the rider moves.
   const PlaceRange& quiet() const { return quiet_; }
 
   bool apply() {
@@ -54,15 +56,15 @@ class RiderRules {
   }
 
  private:
-  // A node where it is now.
+  // A node at its present place.
   struct Node {
     double s;
     int home, rider;  // -1: none
   };
   static constexpr int on_each_side = 2;
 
-  // The rider's node and two on each side of it, where they are now: on a ring as often as it takes, else as
-  // many as there are.
+  // Looks up the rider's node and two nodes on each side at their present places. A ring is gone round as
+  // often as needed; an open beam may have fewer.
   void look_around(const Eigen::VectorXd& q) {
     const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
     const int count = static_cast<int>(nodes.size()), own = mesh_.riders[joint_].node;
@@ -81,13 +83,13 @@ class RiderRules {
       nodes_[node_count_++] = {now(i) + (turns + turn) * L, home, nodes[i].rider};
     }
     right_ = left_ + 2;
-    // The home nodes from the left neighbour to the right one, of those that can come and go.
+    // The home nodes that can come and go, from the left neighbour to the right one.
     lowest_ = std::max(lowest(), beam_.home_interval(nodes_[left_].s));
     highest_ = std::min(highest(), beam_.home_interval(nodes_[right_].s) + 1);
   }
 
-  // Between two home nodes, and with other riders further away, nothing but distances from them counts, each
-  // of which is watched before it is asked for.
+  // Watches distances from two home nodes. While other riders are further away nothing else counts, and each
+  // distance is watched before it is asked for.
   void watch_neighbours() {
     const int h = beam_.home_interval(s_);
     watch(at(h));
@@ -105,7 +107,7 @@ class RiderRules {
     watch(place - distance);
     watch(place + distance);
   }
-  // What else counts may change at any time.
+  // Other conditions may change at any time: no place but the present one is quiet.
   void watch_closely() { quiet_ = {s_, s_}; }
   bool is_near_as_point(double reach) {
     const int before = beam_.home_interval(s_);
@@ -131,7 +133,7 @@ class RiderRules {
     next_.rider = joint_;
     return true;
   }
-  // The next plan, which is made when something is first changed.
+  // The next plan, made at the first change.
   MeshPlan& plan() {
     if (!std::exchange(is_planned_, true)) next_.plan = plan_at(system_, state_);
     return next_.plan;
@@ -167,7 +169,7 @@ class RiderRules {
     return (place > s_) == (rate_ > 0);
   }
 
-  // All hidden nodes around it return, but for those that another rider hides.
+  // The rider becomes a point. All hidden nodes around it return, except those that another rider hides.
   bool become_point() {
     plan().modes[joint_] = Carried::point;
     for (int h = lowest_; h <= highest_; ++h)
@@ -177,7 +179,7 @@ class RiderRules {
 
   bool hidden(int h) const { return !present(h) && at(h) > nodes_[left_].s && at(h) < nodes_[right_].s; }
 
-  // Whether a neighbour that is itself a moving node is within some home intervals of a home node.
+  // Whether a neighbour that is itself a moving node is within `reach` home intervals of a home node.
   bool another_joint_near(int h, double reach) const {
     for (const int neighbour : {left_, right_}) {
       const Node& node = nodes_[neighbour];
@@ -188,7 +190,7 @@ class RiderRules {
     return false;
   }
 
-  // A break before a rider with a discontinuous slope.
+  // Whether a home node is a break that gives way to this rider, as its slope is discontinuous.
   bool gives_way(int h) const {
     return home(h).kind == NodeKind::smooth && passing(model_.riders[joint_], home(h)) == Passing::gives_way;
   }
@@ -215,7 +217,7 @@ class RiderRules {
     return false;
   }
 
-  // Returns whether a hidden home node comes back in the element towards `far`.
+  // Returns whether a hidden home node comes back in the element towards a neighbour.
   bool insert_towards(int neighbour) {
     const Node& far = nodes_[neighbour];
     if (far.rider >= 0) return insert_between_joints(far);
@@ -230,7 +232,7 @@ class RiderRules {
     return false;
   }
 
-  // The far end is another moving node: a hidden node returns when it is half a standard length from both.
+  // A hidden node between two moving nodes returns when it is half a standard length from both.
   bool insert_between_joints(const Node& far) {
     for (int h = lowest_; h <= highest_; ++h) {
       if (!hidden(h) || home(h).permanent || (at(h) > s_) != (far.s > s_)) continue;
@@ -246,7 +248,7 @@ class RiderRules {
     const Node& near = nodes_[neighbour];
     const int h = near.home;
     if (near.rider >= 0 || is_end(h) || home(h).permanent) return false;
-    // The next node may be another moving one: then a home node beyond it is hidden by that one.
+    // If the next node is a moving one too, it hides the home node beyond it.
     const Node& beyond = nodes_[neighbour + (neighbour == left_ ? -1 : 1)];
     if (beyond.rider < 0 && !present(near.s < s_ ? h - 1 : h + 1)) return false;
     const double distance = std::abs(near.s - s_);
@@ -256,7 +258,7 @@ class RiderRules {
     for (const double threshold : {control_.min * here, (control_.max - 1) * behind, last_moment * here})
       watch(near.s, threshold);
     if (distance >= control_.min * here || distance > (control_.max - 1) * behind) return false;
-    // Another hidden node comes back first, unless it is too near to a second rider and this one too near
+    // Another hidden node comes back first, unless it is too near to a second rider and this node is too near
     // here.
     for (int k = lowest_; k <= highest_ && distance > last_moment * here; ++k)
       if (hidden(k) && !home(k).permanent) return false;
@@ -284,8 +286,8 @@ class RiderRules {
   PlaceRange quiet_;
   std::array<Node, 2 * on_each_side + 1> nodes_;
   int node_count_ = 0;
-  int left_ = -1, right_ = -1;     // of nodes_
-  int lowest_ = 0, highest_ = -1;  // of home nodes
+  int left_ = -1, right_ = -1;     // indices in nodes_
+  int lowest_ = 0, highest_ = -1;  // numbers of home nodes
 };
 
 }  // namespace
@@ -342,14 +344,15 @@ void MeshWatch::look(const std::shared_ptr<const BeamSystem>& system, const Next
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next) {
   constexpr double shortest = 0.01, longest = 1.5;  // in home element lengths
   if (next.change == MeshChange::becomes_node) return true;
-  // What a point lacks of a kink is less and less; of a bend there is no more near the end than before.
+  // Waiting pays for a kink alone: the nearer the end, the smaller the kink that a point cannot carry. The
+  // bend of a continuous slope is no smaller near the end than before.
   const bool bends = system.model().riders[next.rider].continuous_slope;
   if (next.change == MeshChange::becomes_point && bends) return false;
   const Mesh& mesh = system.mesh();
   const int beam = system.model().riders[next.rider].beam;
   const int node = mesh.riders[next.rider].node, first = mesh.first_span[beam];
   const int spans = mesh.first_span[beam + 1] - first;
-  // Of a ring the element before its first node is its last.
+  // On a ring the last element comes before the first node.
   for (const int span : {first + (node + spans - 1) % spans, first + node % spans}) {
     const double start = mesh.spans[span].start(state.q), end = mesh.spans[span].end(state.q);
     const double standard = system.model().beams[beam].home_spacing((start + end) / 2);

@@ -14,15 +14,15 @@ namespace nurbeam {
 
 namespace {
 
-// Whether a new mesh holds the motion as it is, or takes the papers' way.
+// Whether a beam's motion is carried over without a projection: exactly, or by the papers' rule.
 bool keeps_motion(const Beam& beam, MeshChange change) {
   if (change == MeshChange::split || change == MeshChange::becomes_node)
     return beam.properties.axial_strain == AxialStrain::pointwise;
   return change == MeshChange::merge && beam.merge != MergeRule::standard;
 }
 
-// `project(to)`: the motion on a mesh that does not keep it. `neighbour`, which may be null: see
-// BeamSystem::replanned.
+// The motion on the next mesh. `project(to)`: carries it over to a mesh that cannot keep it. `neighbour`,
+// which may be null: see BeamSystem::replanned.
 template <class Project>
 std::optional<ChangedMesh> changed(const MeshedState& at, const NextPlan& next, bool at_rest,
                                    const BeamSystem* neighbour, const Project& project) {

@@ -13,39 +13,39 @@ struct MeshedState {
   std::shared_ptr<const BeamSystem> system;
   State state;
 
-  /// The model as it is drawn; `like`, which may be null, is that of a neighbouring model.
+  /// The drawn state of a model. `like`, which may be null: the system of a neighbouring model.
   static MeshedState drawn(std::shared_ptr<const BeamModel> model, const BeamSystem* like = nullptr);
 };
 
-/// A motion on another mesh.
+/// A motion that was carried over to another mesh.
 struct ChangedMesh {
   MeshedState now;
-  Eigen::VectorXd impulse = {};  ///< of the projection (see Transferred); empty where there was none
+  Eigen::VectorXd impulse = {};  ///< of the projection (see Transferred); empty without a projection
   EnergyKeeping keeping = {};    ///< see Transferred
   std::vector<int> around = {};  ///< unknowns that changed (changed_unknowns)
 };
 
-/// On the mesh that length control asks for; `at_rest`: riders are held there, and there are no velocities to
-/// project. Empty where velocities cannot be projected.
+/// The motion on the mesh that length control asks for. `at_rest`: riders are held there, and there are no
+/// velocities to project. Empty where velocities cannot be projected.
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next, bool at_rest);
-/// Of a motion whose energy is known.
+/// The motion on the new mesh, where its energy is known already.
 std::optional<ChangedMesh> changed_mesh(const MeshedState& at, const NextPlan& next,
                                         const SystemEnergy& energy);
 
-/// Of a motion that has yet to begin as it is drawn: the shape stays, whatever the energy.
+/// A motion that has yet to begin from the drawing, on the new mesh: the shape stays, whatever the energy.
 std::optional<ChangedMesh> changed_drawing(const MeshedState& at, const NextPlan& next);
 
-/// Goes on there.
+/// Replaces the mesh and carries the state over.
 [[nodiscard]] std::optional<Failure> change_mesh(MeshedState& at, const NextPlan& next, bool at_rest);
-/// The same as a neighbouring motion, whose energy has been kept so, and is one of this system
-/// now.
+/// Replaces the mesh as a neighbouring motion has done. `neighbour`: its system now; `keeping`: how its
+/// energy was conserved.
 [[nodiscard]] std::optional<Failure> change_mesh_like(MeshedState& at, const NextPlan& next,
                                                       const BeamSystem& neighbour,
                                                       const EnergyKeeping& keeping,
                                                       NeighbourSolvers& solvers);
 
-/// Each change of the mesh makes the next less likely: a failure when there were more at one moment, `count`,
-/// than that can be.
+/// A failure when `count` changes of the mesh at one moment are more than possible, as each change makes the
+/// next less likely.
 [[nodiscard]] std::optional<Failure> excess_of_changes(const MeshedState& at, std::size_t count);
 
 }  // namespace nurbeam

@@ -6,7 +6,7 @@ namespace nurbeam {
 
 namespace {
 
-// Per beam and node of `to` the same node of `from`, -1 where there is none.
+// Per beam and node of `to`: the corresponding node of `from`, -1 where there is none.
 std::vector<std::vector<int>> same_nodes(const BeamSystem& from, const BeamSystem& to) {
   const auto &old = from.mesh().nodes, &nodes = to.mesh().nodes;
   std::vector<std::vector<int>> same(nodes.size());
@@ -18,7 +18,7 @@ std::vector<std::vector<int>> same_nodes(const BeamSystem& from, const BeamSyste
   return same;
 }
 
-// Whether these nodes of the old mesh, where they are any, have an element between them.
+// Whether two nodes of the old mesh have an element between them; not if one of them is -1.
 bool are_joined(const BeamSystem& from, int beam, int a, int b) {
   if (a < 0 || b < 0) return false;
   const int count = static_cast<int>(from.mesh().nodes[beam].size());
@@ -64,7 +64,7 @@ std::vector<int> spans_beside(const Mesh& mesh, const NodeSet& nodes) {
     const int first = mesh.first_span[beam], end = mesh.first_span[beam + 1];
     if (first == end) continue;  // a guide
     if (first + node < end) spans.insert(first + node);
-    // On a ring the last one ends at the first node.
+    // On a ring the last span ends at the first node.
     const int before = node > 0 ? first + node - 1 : end - 1;
     if (mesh.spans[before].node_b == node) spans.insert(before);
   }

@@ -23,7 +23,7 @@ bool recentring_due(const BeamSystem& system, const State& state) {
 
 MeshedState recentred(const BeamSystem& system, const State& state, const std::vector<bool>& held,
                       const MeshPlan* like) {
-  MeshPlan plan = present_plan(system, state);  // of the same elements, in their order
+  MeshPlan plan = present_plan(system, state);  // a plan with the same elements in the same order
   State next = state;
   std::size_t i = 0;
   for (const MeshElement<3>& e : system.assembly<3>()->elements()) {
@@ -46,7 +46,7 @@ MeshedState recentred(const BeamSystem& system, const State& state, const std::v
       };
       next.q[angle] = of_like ? angle_in(chart, section) : 0;
       next.v[angle] = of_like ? rate(0) : element.spin(x, end);
-      // To a part in 10^10.
+      // A difference over 2 t, accurate to a part in 10^10.
       const double t = 1e-5 / std::max(1e-5, x.v.lpNorm<Eigen::Infinity>());
       next.a[angle] = (rate(t) - rate(-t)) / (2 * t);
     }

@@ -8,13 +8,13 @@ namespace nurbeam {
 /// tangent.
 bool recentring_due(const BeamSystem& system, const State& state);
 
-/// Whether an end is at a clamped node: there the chart is that of the drawing.
+/// Whether an end is at a clamped node, which keeps the chart of the drawing.
 bool keeps_drawn_chart(const BeamSystem& system, const MeshElement<3>& e, int end);
 
-/// The same motion in the charts of the present sections, on the same mesh: angles are zero there, their
-/// rates the spins about the tangents. Clamped nodes keep the chart of the drawing. Accelerations of angles
-/// are to be made consistent anew. `held` as for BeamSystem. `like`: the plan of a neighbouring motion on
-/// this mesh, in whose charts it is then.
+/// The motion in the charts of the present sections, on the same mesh: angles become zero, their rates the
+/// spins about the tangents. Clamped nodes keep the chart of the drawing. Accelerations of angles must be
+/// made consistent anew. `held`: see BeamSystem. `like`: the plan of a neighbouring motion on this mesh,
+/// whose charts are then used.
 MeshedState recentred(const BeamSystem& system, const State& state, const std::vector<bool>& held = {},
                       const MeshPlan* like = nullptr);
 

@@ -13,7 +13,7 @@ namespace nurbeam {
 
 namespace {
 
-// Nodes, with the elements between them and the bodies there.
+// The surroundings of some nodes: the nodes, the elements between them and the bodies there.
 class Surroundings {
  public:
   Surroundings(const BeamSystem& system, const State& state, const NodeSet& nodes)
@@ -28,7 +28,7 @@ class Surroundings {
     }
   }
 
-  // Positions, slopes and places of riders.
+  // Coordinates of positions, slopes and places of riders.
   std::vector<int> moving() const {
     std::set<int> moving = places_;
     for (const auto& of : {positions_, slopes_})
@@ -37,7 +37,7 @@ class Surroundings {
     return {moving.begin(), moving.end()};
   }
 
-  // With the turns of sections.
+  // All coordinates: the moving ones and the angles and bubbles of sections.
   std::vector<int> all() const {
     std::vector<int> all = moving();
     all.insert(all.end(), turns_.begin(), turns_.end());
@@ -47,7 +47,7 @@ class Surroundings {
 
   bool is_place(int dof) const { return places_.contains(dof); }
 
-  // (translations and rotations, all) What these do to the coordinates.
+  // (rigid motions, all) Translations and rotations as changes of the coordinates.
   Eigen::MatrixXd rigid_motions() const {
     const int D = system_.dimension();
     const std::vector<int> columns = all();
@@ -107,7 +107,7 @@ RelativeMotion relative_motion(const BeamSystem& from, const BeamSystem& to, con
   if (nodes.empty()) return {};
   const Surroundings near(to, state, nodes), wide(to, state, with_neighbours(to.mesh(), nodes));
   const std::vector<int> coordinates = near.moving(), around = wide.all();
-  std::vector<int> own;  // places of the coordinates among those around
+  std::vector<int> own;  // indices of `coordinates` in `around`
   for (const int dof : coordinates)
     own.push_back(static_cast<int>(std::lower_bound(around.begin(), around.end(), dof) - around.begin()));
 
@@ -126,7 +126,7 @@ RelativeMotion relative_motion(const BeamSystem& from, const BeamSystem& to, con
   across.compute(kept);
   const Eigen::MatrixXd Q = across.householderQ(), along = Q.rightCols(Q.cols() - across.rank());
 
-  // Places of riders have no mass of their own, but where they go along with a body.
+  // Places of riders have no mass of their own; they have it where they move along with a body.
   const Eigen::LLT<Eigen::MatrixXd> mass(along.transpose() * M(own, own) * along);
   if (mass.info() != Eigen::Success) return {};
   const Eigen::VectorXd momentum = along.transpose() * (M(own, Eigen::all) * state.v(around)),

@@ -11,7 +11,7 @@ namespace nurbeam {
 
 namespace {
 
-// How near others on its beam may come to a rider [m].
+// The least distance of other bodies on its beam from a rider's [m].
 double nearest(const BeamModel& model, int rider) {
   const bool rigid = model.beam_of(model.riders[rider]).rigid;
   return (rigid ? touching_distance : meeting_distance) * home_spacing(model, rider);
@@ -47,7 +47,7 @@ bool kept_apart(const BeamModel& model, int rider, int other) {
     if (stop.other < 0) return false;
     if (std::minmax(stop.rider, stop.other) == std::minmax(rider, other)) return true;
     if (closed || model.riders[stop.rider].beam != model.riders[rider].beam) return false;
-    // By one that stands between them, as no body passes another.
+    // Another body between them has the stop, as no body passes another.
     const auto [near, far] = place(stop.rider) < place(stop.other) ? std::pair(stop.rider, stop.other)
                                                                    : std::pair(stop.other, stop.rider);
     return near == rider && place(far) < place(other) && kept_apart(model, far, other);

@@ -15,7 +15,7 @@ TangentBlocks::TangentBlocks(const BeamSystem& system, const State& state, const
   std::fill(wanted.begin() + n, wanted.end(), true);
   std::vector<int> place(static_cast<std::size_t>(n + m), -1);
   std::iota(place.begin() + n, place.end(), 0);
-  // Nobody looks at the other columns.
+  // Columns of other coordinates are never read, and stay unset.
   const auto values = std::make_unique_for_overwrite<double[]>(pattern.rows().size());
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     wanted[coordinates[k]] = true;

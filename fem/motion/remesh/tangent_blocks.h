@@ -5,7 +5,8 @@
 
 namespace nurbeam {
 
-/// What a tangent has in the columns of some coordinates: in their rows, and in those of constraints.
+/// Blocks of a tangent in the columns of some coordinates: in the rows of these coordinates, and in the rows
+/// of constraints.
 class TangentBlocks {
  public:
   TangentBlocks(const BeamSystem& system, const State& state, const TangentWeights& weights,

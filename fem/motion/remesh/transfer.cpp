@@ -24,7 +24,7 @@ namespace {
 // A motion on a new mesh whose elements cannot hold it exactly.
 class Remap {
  public:
-  // `solvers`, which may be null: of a motion that this one lies beside.
+  // `solvers`, which may be null: from a motion beside which this one lies.
   Remap(const BeamSystem& from, const State& state, const BeamSystem& to, NeighbourSolvers* solvers = nullptr)
       : from_(from),
         state_(state),
@@ -34,7 +34,7 @@ class Remap {
         around_(changed_unknowns(from, to)),
         enough_(closed_enough(from, state)) {}
 
-  // The velocities for the places next.q, by L2 projection: nothing when that is singular.
+  // The state with velocities for the positions next.q, by L2 projection; nothing when that is singular.
   std::optional<Transferred> with_velocities(State next) const {
     put_bodies(next);
     if (!close_constraints(to_, enough_, next)) return std::nullopt;
@@ -43,7 +43,7 @@ class Remap {
     return Transferred{std::move(next), projection.impulse};
   }
 
-  // Lets velocities take away what there is too much of the energy; whether they can.
+  // Lets velocities take the excess of energy away; returns whether they can.
   bool keep_energy_by_velocities(Transferred& next) const {
     const RelativeMotion motion = relative_motion(from_, to_, next.state);
     const std::optional<double> growth = motion.growth(excess(next.state));
@@ -53,13 +53,13 @@ class Remap {
     return true;
   }
 
-  // Moves nodes so that the total energy is the old one: those of new elements, which as interpolated carry
-  // axial strain that the old ones had not, and where these cannot bring it, their neighbours too, ring by
+  // Moves nodes so that the total energy is the old one. New elements as interpolated carry axial strain that
+  // the old ones did not have, so their nodes move; where that is not enough, neighbours move too, ring by
   // ring.
   void keep_energy_by_moves(const SystemEnergy& old, Transferred& next) const {
     constexpr double accuracy = 1e-10;
     const double enough =
-        accuracy * (old.kinetic + old.axial + old.bending);  // the same wherever the model lies
+        accuracy * (old.kinetic + old.axial + old.bending);  // does not depend on where the model lies
     double e = excess(next.state);
     constexpr int most_rings = 4;
     for (int rings = 0; rings <= most_rings && std::abs(e) > enough; ++rings) {
@@ -72,7 +72,7 @@ class Remap {
     }
   }
 
-  // Whether these moves could be made.
+  // Repeats the moves of a neighbour; returns whether they could be made.
   bool repeat(const std::vector<EnergyMove>& moves, Transferred& next) const {
     for (const EnergyMove& move : moves) {
       const std::vector<int> free = free_coordinates(move.rings);
@@ -85,7 +85,7 @@ class Remap {
     return true;
   }
 
-  // The same with all that is between; nothing where it is more than that.
+  // The stages of the transfer with all moves; nothing where more was needed.
   std::optional<TransferPath> path(const EnergyKeeping& keeping) const {
     if (!bodies_are_on_axes()) return std::nullopt;
     const std::vector<EnergyMove>& moves = keeping.moves;
@@ -119,7 +119,7 @@ class Remap {
   }
 
  private:
-  // A body on a point must lie on the curve, which the removal of its node has moved a little.
+  // Puts each body that is a point on the curve again, which the removal of its node has moved a little.
   void put_bodies(State& next) const {
     const BeamModel& model = to_.model();
     const Mesh& mesh = to_.mesh();
@@ -137,8 +137,8 @@ class Remap {
     return std::none_of(riders.begin(), riders.end(), [](const Rider& j) { return j.is_offset(); });
   }
 
-  // Those with this momentum at the places next.q. What is solved for them lies near what was solved at the
-  // places before, and for neighbouring motions at the same ones.
+  // Projects velocities with this momentum at the positions next.q. A solution is near the one for the
+  // positions before, and for neighbouring motions near theirs at the same positions.
   Projection velocities(const Eigen::VectorXd& momentum, State& next) const {
     constexpr int few = 400;
     if (solvers_) {
@@ -151,7 +151,7 @@ class Remap {
 
   double excess(const State& x) const { return energy_change(from_, state_, to_, x); }
 
-  // The free coordinates moved on; nothing where that cannot be.
+  // The motion with the free coordinates moved; nothing where that is not possible.
   std::optional<Transferred> with_move(const State& from, const std::vector<int>& free,
                                        const Eigen::VectorXd& move) const {
     State moved = from;
@@ -160,8 +160,9 @@ class Remap {
     return with_velocities(std::move(moved));
   }
 
-  // One move of the free coordinates that takes the excess e away on the parabola of the potential energy, or
-  // to its lowest, halved until |e| falls; whether there is one, else nothing changes.
+  // Makes one move of the free coordinates that takes the excess e away on the parabola of the potential
+  // energy, or leads to its lowest place, halved until |e| falls. Returns whether there is one; else nothing
+  // changes.
   bool move_towards(Transferred& next, int rings, const std::vector<int>& free, double& e) const {
     auto [move, mu] = move_of(next.state, free, e, std::nullopt);
     for (int halvings = 0; halvings < 4; ++halvings, move /= 2) {
@@ -178,7 +179,8 @@ class Remap {
     return false;
   }
 
-  // The potential energy where free coordinates move as constraints allow; a column of `allowed` each.
+  // The parabola of the potential energy where free coordinates move as constraints allow, one column of
+  // `allowed` each.
   EnergyParabola parabola(const State& next, const std::vector<int>& free, Eigen::MatrixXd& allowed) const {
     State still = next;
     still.v.setZero();
@@ -195,8 +197,8 @@ class Remap {
     return {part(stiffness), part(mass), allowed.transpose() * residual_of(to_, still, free)};
   }
 
-  // One move of the free coordinates, the least in the mass norm that takes the excess e of the energy away;
-  // that of a neighbouring motion has this mu.
+  // The least move of the free coordinates, in the mass norm, that takes the excess e of the energy away.
+  // `near`: the mu of a neighbouring motion.
   LeastMove move_of(const State& next, const std::vector<int>& free, double e,
                     std::optional<double> near) const {
     Eigen::MatrixXd allowed;
@@ -207,7 +209,7 @@ class Remap {
     return move;
   }
 
-  // (free, moves) An orthonormal basis of the moves that open no constraint of this gradient.
+  // (free, moves) An orthonormal basis of the moves that open no constraint with this gradient.
   static Eigen::MatrixXd allowed_moves(const Eigen::MatrixXd& G) {
     if (G.isZero(0)) return Eigen::MatrixXd::Identity(G.cols(), G.cols());
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> across(G.transpose());
@@ -215,9 +217,9 @@ class Remap {
     return Q.rightCols(G.cols() - across.rank());
   }
 
-  // Positions, slopes and sections of the nodes of new elements, and of the given rings of neighbours, and
-  // the bubbles of new elements: but for supported positions, clamped slopes, sections at supports and
-  // positions of bodies that are nodes. Bodies carried as points go with the curve.
+  // Coordinates that may move: positions, slopes and sections of the nodes of new elements and of `rings` of
+  // neighbours, and the bubbles of new elements. Excluded are supported positions, clamped slopes, sections
+  // at supports and positions of bodies that are nodes. Bodies carried as points go with the curve.
   std::vector<int> free_coordinates(int rings) const {
     const Mesh& mesh = to_.mesh();
     NodeSet nodes = nodes_of_new_elements(from_, to_);
@@ -248,11 +250,11 @@ class Remap {
   const State& state_;
   const BeamSystem& to_;
   NeighbourSolvers* const solvers_;
-  mutable std::size_t solved_ = 0;  // with them
-  mutable ProjectionSolver own_;    // without such motions
+  mutable std::size_t solved_ = 0;  // number of `solvers_` used
+  mutable ProjectionSolver own_;    // used without `solvers_`
   const CarriedMomentum momentum_;
-  const std::vector<int> around_;  // where rows of the new mesh may be open
-  const double enough_;            // of closed constraints
+  const std::vector<int> around_;  // rows of the new mesh that may be open
+  const double enough_;            // tolerance of closed constraints
 };
 
 }  // namespace

@@ -8,28 +8,29 @@
 
 namespace nurbeam {
 
-/// The same motion on another mesh: kept nodes keep r and r_s, new nodes take them and their rates from the
-/// old curve, moved by match_axial_strain(). Where nodes were only inserted (a split) the axial energy is the
-/// old one, and with the pointwise strain the motion is. Accelerations are those of kept nodes, of bodies and
-/// of the old curve; multipliers stay where they are as many, else they are zero.
+/// A motion on another mesh. Kept nodes keep r and r_s; new nodes take them and their rates from the old
+/// curve, moved by match_axial_strain(). Where nodes were only inserted (a split) the axial energy is
+/// conserved, and with the pointwise strain the motion is. Accelerations come from kept nodes, from bodies
+/// and from the old curve. Multipliers stay if their number does; else they are zero.
 State interpolated(const BeamSystem& from, const State& state, const BeamSystem& to);
-/// The same with balance_added_nodes().
+/// The interpolated() motion with balance_added_nodes().
 State balanced(const BeamSystem& from, const State& state, const BeamSystem& to);
 
-/// A move of nodes towards the energy of before: those of new elements and of rings of neighbours around
-/// them, of 2^-halvings of the least move, with its mu, that a parabola foretells.
+/// A move of nodes that restores the energy of before: the nodes of new elements and of `rings` of neighbours
+/// around them. The move is 2^-halvings of the least move, with its mu, that a parabola predicts.
 struct EnergyMove {
   int rings, halvings;
   double mu;
 };
 
-/// What has kept the energy.
+/// The means by which the energy was conserved.
 struct EnergyKeeping {
-  bool by_velocities = false;          ///< by relative_motion(), of balanced(); else moves, of interpolated()
-  std::vector<EnergyMove> moves = {};  ///< none by velocities
+  /// By relative_motion() of the balanced() shape; else by moves of the interpolated() shape.
+  bool by_velocities = false;
+  std::vector<EnergyMove> moves = {};  ///< empty when conserved by velocities
 };
 
-/// A motion on another mesh, and what carrying it over took.
+/// A motion on another mesh, and the impulse and moves that it took to carry it over.
 struct Transferred {
   State state;
   /// Constraint impulse of the projection of velocities [N s]: the momentum on the new mesh changes by -G'
@@ -38,48 +39,50 @@ struct Transferred {
   EnergyKeeping keeping = {};
 };
 
-/// A move of them as it has been made: 2^-halvings d of these coordinates.
+/// A move of nodes as it was made: 2^-halvings d in the coordinates `free`.
 struct MadeMove {
   std::vector<int> free;
   Eigen::VectorXd d;
-  double mu;  ///< 0 where d does not bring the energy, but leads to the lowest
+  double mu;  ///< 0 where d does not restore the energy, but leads to the lowest one
   int halvings;
 };
 
-/// A motion on its way to another mesh.
+/// The stages of a motion that is carried over to another mesh.
 struct TransferPath {
   std::vector<Transferred> stages;  ///< with velocities, before and after each move
   std::vector<MadeMove> moves;
-  /// What the last stage has more than the energy, where velocities take it away [J].
+  /// The excess of energy in the last stage, where velocities take it away [J].
   std::optional<double> excess = {};
 };
 
-/// How far constraints may be open in a motion that is carried over to another mesh, in their units: as far
-/// as they were, or round-off.
+/// Tolerance of constraints in a motion that is carried over to another mesh, in their units: as far open as
+/// they were, or round-off.
 double closed_enough(const BeamSystem& from, const State& state);
 
-/// The same for a mesh that cannot hold the motion exactly: velocities are the L2 projection of the material
-/// velocity field on the balanced() shape, and what of the energy this changes is given to or taken from
-/// relative_motion(), or where that is too slow, brought back by nodes. Then, on the interpolated() shape,
-/// those of new elements, if need be their neighbours too, move by the least displacements, in the mass norm,
-/// that keep the total energy to 1e-10 of the kinetic and strain energy. (As interpolated, a merged element
-/// carries axial strain that the two had not; Ding & Ouyang choose weights instead, Eqs. 31-38.) Such moves
-/// open no constraint. Where the energy cannot be reached it comes as near as they bring it. Returns nullopt
-/// when the projection is singular or the constraints cannot be closed.
+/// A motion on a mesh that cannot hold it exactly. Velocities are the L2 projection of the material velocity
+/// field on the balanced() shape. The energy that this changes is given to or taken from relative_motion().
+///
+/// Where the relative motion is too slow, nodes restore the energy. On the interpolated() shape the nodes of
+/// new elements, and if need be their neighbours too, move by the least displacements in the mass norm that
+/// conserve the total energy to 1e-10 of the kinetic and strain energy. (As interpolated, a merged element
+/// carries axial strain that the two did not have; Ding & Ouyang choose weights instead, Eqs. 31-38.) The
+/// moves open no constraint. Where the energy cannot be reached, they bring it as near as they can.
+///
+/// Returns nullopt when the projection is singular or the constraints cannot be closed.
 std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to);
-/// With the energy of (from, state), where that is known.
+/// The projected() motion where the energy of (from, state) is known already.
 std::optional<Transferred> projected(const BeamSystem& from, const State& state, const SystemEnergy& energy,
                                      const BeamSystem& to);
-/// The same with the energy kept as of a neighbouring motion, so that it is a smooth function of the state
-/// and of the model: with its moves, whatever they bring, as far away from the energy's own as that one is.
-/// nullopt also where that cannot be done. `solvers`: as in velocities_beside, of the motion that made them
-/// first.
+/// The projected() motion with the energy conserved as in a neighbouring motion, so that it is a smooth
+/// function of the state and of the model. It repeats the neighbour's moves, and so misses its own energy by
+/// as much as the neighbour does. nullopt also where that cannot be done. `solvers`: as for
+/// velocities_beside, from the motion that made them first.
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
                                           const EnergyKeeping& keeping, NeighbourSolvers& solvers);
 
-/// The way of projected(), for a motion whose energy has been kept so. nullopt where it is more than that:
-/// where bodies stand off their beams, constraints must be closed, or a move leads neither to its energy nor
-/// to the lowest.
+/// The stages of projected(), for a motion whose energy was conserved as `keeping` tells. nullopt where more
+/// was needed: bodies stand off their beams, constraints must be closed, or a move leads neither to its
+/// energy nor to the lowest.
 std::optional<TransferPath> path_of(const BeamSystem& from, const State& state, const BeamSystem& to,
                                     const EnergyKeeping& keeping);
 

@@ -16,7 +16,7 @@ bool divides(const HomeNode& node) {
   return node.permanent || node.joined || node.kind != NodeKind::smooth || node.hold != Hold::nothing;
 }
 
-/// Home nodes between which elements are of one length.
+/// Home nodes between which elements have one length.
 std::vector<int> dividing_nodes(const Beam& beam) {
   std::vector<int> nodes{0};
   for (int h = 1; h < beam.home_intervals(); ++h)
@@ -25,7 +25,8 @@ std::vector<int> dividing_nodes(const Beam& beam) {
   return nodes;
 }
 
-/// Where the drawn shape is judged: what a cubic misses of an arc, as position_error() has it [m].
+/// Estimated error of an element of the drawn shape, by how far a cubic misses an arc; comparable to
+/// position_error() [m].
 double drawn_error(const Beam& beam, double s_a, double s_b) {
   const double s = (s_a + s_b) / 2;
   const int segment = beam.curve.segment_at(s);
@@ -33,7 +34,7 @@ double drawn_error(const Beam& beam, double s_a, double s_b) {
   return quartic_strain_to_error * std::pow(kappa * (s_b - s_a), 4) / 560 * (s_b - s_a);
 }
 
-/// The estimated error that each interval between two home nodes of a beam contributes [m].
+/// Contribution of each interval between two home nodes of a beam to the estimated error [m].
 std::vector<double> home_errors(const MeshedState& at, int b, bool from_equilibrium) {
   const Beam& beam = at.system->model().beams[b];
   const Mesh& mesh = at.system->mesh();
@@ -46,16 +47,17 @@ std::vector<double> home_errors(const MeshedState& at, int b, bool from_equilibr
   return errors;
 }
 
-/// Elements between two dividing nodes, and what they contribute to the estimated error over the length.
+/// Elements between two dividing nodes, and their contribution to the estimated error over the length.
 struct Interval {
   int elements;
   double error;
 
-  /// The number with which an interval in an optimal mesh has `density` [error^(1/5)] of it: errors fall with
-  /// the fourth power of the number, so that with the fewest elements the error of each is the same.
+  /// The number of elements of this interval in an optimal mesh, with `density` [error^(1/5)] as the common
+  /// factor. Errors fall with the fourth power of the number. With the fewest elements each has an equal
+  /// error.
   int elements_for(double density) const {
     const double wanted = elements * density * std::pow(error / elements, 0.2);
-    constexpr double most_at_once = 3;  // a coarse mesh's estimate is not trusted for more
+    constexpr double most_at_once = 3;  // a coarse mesh's estimate is not trusted for a larger factor
     return static_cast<int>(std::ceil(std::clamp(wanted, 1.0 * elements, most_at_once * elements)));
   }
 };
@@ -105,7 +107,7 @@ class Adaption {
     return result_.from_equilibrium ? std::move(at) : MeshedState::drawn(model);
   }
 
-  // Whether the beam has got more elements.
+  // Divides a beam further where its error is too large; returns whether it has got more elements.
   bool divide(const MeshedState& at, int b) {
     Beam& beam = model_.beams[b];
     const std::vector<int> nodes = dividing_nodes(beam);
@@ -118,7 +120,7 @@ class Adaption {
     }
     result_.error = std::max(result_.error, error);
     if (error <= *tolerances_[b]) return false;
-    constexpr double margin = 0.9;  // of the tolerance: the next estimate is a little another
+    constexpr double margin = 0.9;  // part of the tolerance, as the next estimate differs a little
     const double density = std::pow(spread / (margin * *tolerances_[b]), 0.25);
     std::vector<int> parts;
     for (const Interval& interval : now) parts.push_back(interval.elements_for(density));

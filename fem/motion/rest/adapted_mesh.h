@@ -7,19 +7,21 @@
 
 namespace nurbeam {
 
-/// How fine a mesh has been made, and by what it was judged.
+/// The result of a mesh adaptation, and the state by which the mesh was judged.
 struct AdaptedMesh {
-  double error = 0;  ///< estimated, of positions over the beam's length, the largest of the beams [-]
-  bool from_equilibrium = true;  ///< else the drawn shape was judged: no equilibrium was found
-  bool reached = true;           ///< all tolerances; else the number of elements was at its limit
-  bool interrupted = false;      ///< the search has been ended
+  double error = 0;  ///< estimated error of positions over the beam's length, the maximum of the beams [-]
+  bool from_equilibrium = true;  ///< false: the drawn shape was judged, as no equilibrium was found
+  bool reached = true;           ///< all tolerances are met; false: the number of elements reached its limit
+  bool interrupted = false;      ///< the search was ended by `interrupted`
 };
 
-/// Divides beams into as many elements as their static state under all loads needs, sliding bodies held where
-/// they start: the estimated error of positions over the beam's length is to be within the beam's tolerance.
-/// Between two places that no element may cross elements are of one length; beams without tolerance stay as
-/// they are. Only refines what is there. `most_elements`: of one beam. `interrupted` is asked at every Newton
-/// iteration. `time`: of the loads [s].
+/// Divides beams into as many elements as their static equilibrium under all loads needs, with sliding bodies
+/// held where they start. The estimated error of positions over the beam's length must be within the beam's
+/// tolerance.
+///
+/// The mesh is only refined. Between two places that no element may cross elements have one length; beams
+/// without tolerance stay as they are. `most_elements`: limit for one beam. `interrupted` is asked at every
+/// Newton iteration. `time`: of the loads [s].
 ///
 /// The estimate of a beam is the sum of position_error() over its elements.
 AdaptedMesh adapt_mesh(BeamModel& model, const std::vector<std::optional<double>>& tolerances,

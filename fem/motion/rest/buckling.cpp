@@ -19,8 +19,9 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-// That in which beams without torsion do not bend, in space: the strain of their bending is the size of the
-// curvature, across which it is as stiff, and which turns with the loads. Its stiffness is alike all around.
+// The model without the bending of beams without torsion, in space. Their bending strain is the magnitude of
+// the curvature, and it resists bending across the curvature too, in a direction that turns with the loads.
+// This stiffness is equal all around.
 BeamModel without_round_bending(const BeamModel& model, int dimension) {
   BeamModel bare = model;
   for (Beam& beam : bare.beams)
@@ -28,14 +29,14 @@ BeamModel without_round_bending(const BeamModel& model, int dimension) {
   return bare;
 }
 
-// The same with all laws held on the side of their kinks where they are, by what they are there.
+// The state with all laws held on the side of their kinks where they are in it.
 State with_sides(const BeamSystem& system, State state) {
   state.memory.resize(0);
   state.sides = with_assembly(system, [&](const auto& assembly) { return assembly.sides(state); });
   return state;
 }
 
-// The state a little way along the path that starts at a state under gravity.
+// The state moved by `amount` along `direction`, in coordinates and multipliers (n + m).
 State along(const State& from, const Vector& direction, double amount) {
   State state = from;
   const auto n = state.q.size();
@@ -44,8 +45,7 @@ State along(const State& from, const Vector& direction, double amount) {
   return state;
 }
 
-// That with dampers that are as stiff in strain rates as its beams and connectors are in strains, beside its
-// own.
+// The model with additional dampers, as stiff in strain rates as its beams and connectors are in strains.
 BeamModel with_viscous_strains(const BeamModel& model) {
   BeamModel viscous = model;
   for (Beam& beam : viscous.beams) beam.properties.damping += 1;
@@ -54,8 +54,8 @@ BeamModel with_viscous_strains(const BeamModel& model) {
 }
 
 struct LoadStiffness {
-  Matrix geometric;  // by a factor of the loads
-  double reach = 0;  // factor with which they move something by the length of a beam, or turn it by 1
+  Matrix geometric;  // derivative by a factor of the loads
+  double reach = 0;  // factor at which loads move a place by the length of a beam, or turn it by 1
   bool loads_have_energy = true;
 };
 
@@ -63,8 +63,8 @@ double largest_entry(const Matrix& matrix) {
   return matrix.nonZeros() > 0 ? matrix.coeffs().abs().maxCoeff() : 0;
 }
 
-// The longest of the vectors of a change of coordinates, and the largest of those that are in none, over
-// their scales: the same in every frame.
+// The longest vector of a change of coordinates, or the largest coordinate that belongs to no vector, over
+// their scales: equal in every frame.
 double longest(const BeamSystem& system, const Vector& change) {
   const Vector over = change.cwiseQuotient(system.coordinate_scale());
   double result = 0;
@@ -82,9 +82,9 @@ double longest(const BeamSystem& system, const Vector& change) {
   return result;
 }
 
-// By how much the section forces, multipliers and loads of `loaded` beside those of `system` stiffen it, by
-// what they are in first order.
-// `stressed`: `system` without bending that is alike all around; `viscous`: that with viscous strains.
+// The stiffness from section forces, multipliers and loads that `loaded` has beyond those of `system`, to
+// first order in the loads. `stressed`: `system` without bending that is equal all around; `viscous`:
+// `stressed` with viscous strains.
 std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const BeamSystem& loaded,
                                                 const BeamSystem& stressed, const BeamSystem& viscous,
                                                 const State& state, const Matrix& kkt) {
@@ -96,15 +96,16 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   if (!solver.regular()) return std::nullopt;
   Vector path = solver.solve(without - with);
   const double fastest = longest(system, path.head(n));
-  // What the loads would do were nothing else there: those that constraints carry do round-off of it.
+  // Energy of the loads if only the diagonal stiffness resisted them: loads that constraints carry do
+  // round-off of it.
   const Vector pull = (without - with).head(n);
   double free = 0;
   for (int i = 0; i < n; ++i)
     if (kkt.coeff(i, i) > 0) free += pull[i] * pull[i] / kkt.coeff(i, i);
   const bool moves = std::abs(pull.dot(path.head(n))) > 1e-12 * free;
-  if (!moves) path.head(n).setZero();  // constraints carry them all
+  if (!moves) path.head(n).setZero();  // constraints carry all loads
   const State here = with_sides(system, state);
-  // What stiffness of the strains, turned by the path, would change is of second order in the loads.
+  // The material stiffness, turned by the path, would change at second order in the loads only.
   const auto of_stresses = [&](const State& at) -> Matrix {
     const Matrix of_strains =
         tangent_matrix(viscous, at, {.damping = 1}) - tangent_matrix(stressed, at, {.damping = 1});
@@ -113,14 +114,15 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   const auto slope = [&](double h) -> Matrix {
     return (of_stresses(along(here, path, h)) - of_stresses(along(here, path, -h))) / (2 * h);
   };
-  // Extrapolated: errors of h^4, round-off of 1e-13. By multipliers alone it is linear.
+  // Richardson extrapolation: errors of h^4, round-off of 1e-13. The change by multipliers alone is linear.
   const double multiplier = m > 0 ? path.tail(m).lpNorm<Eigen::Infinity>() : 0;
   const double h = moves ? 2e-3 / fastest : multiplier > 0 ? largest_entry(kkt) / multiplier : 1;
   const Matrix geometric = (4 * slope(h / 2) - slope(h)) / 3;
-  // With a load factor what is strained by itself is stiffer too, which kkt is without where it is drawn.
+  // Both tangents have load factor 1, which scales free strains; kkt of a drawn state is without them.
   const Matrix of_loads =
       tangent_matrix(loaded, state, {.stiffness = 1}) - tangent_matrix(system, state, {.stiffness = 1});
-  // Stresses have an energy, of which differences leave less of the symmetry than of exact tangents is left.
+  // Stresses have an energy and need no test. Their differences would leave less symmetry than exact tangents
+  // do.
   const Matrix unsymmetric = Matrix(of_loads - Matrix(of_loads.transpose())).topLeftCorner(n, n);
   const double allowed = 1e-9 * largest_entry(of_loads) + 1e-15 * largest_entry(kkt);
   return LoadStiffness{Matrix(geometric + of_loads).topLeftCorner(n, n),
@@ -128,7 +130,7 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
                        largest_entry(unsymmetric) <= allowed};
 }
 
-// Whether it can move without strain.
+// Whether the model can move without strain.
 bool moves_rigidly(const MeshedState& at, const Matrix& kkt, const std::function<void()>& between) {
   const int n = at.system->coordinate_count();
   constexpr int most_rigid = 6;
@@ -153,7 +155,7 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, int count
   const int n = at.system->coordinate_count();
   if (moves_rigidly(at, kkt, between))
     return Failure{.kind = Failure::Kind::not_held, .loose = find_free_part(at)};
-  std::vector<bool> held;  // or at rest against a stop or an end
+  std::vector<bool> held;  // held, or at rest against a stop or an end
   for (std::size_t j = 0; j < model.riders.size(); ++j)
     held.push_back(row_of_place(*at.system, static_cast<int>(j)).has_value());
   const BeamSystem loaded(model, at.system->mesh().plan, held);
@@ -176,7 +178,7 @@ std::optional<Failure> find_buckling(const std::vector<Force>& forces, int count
   for (Eigen::Index i = 0; i < found->values.size(); ++i) {
     Mode mode;
     mode.factor = 1 / found->values[i];
-    if (std::abs(mode.factor) > by_loads->reach) break;  // nothing is linear there
+    if (std::abs(mode.factor) > by_loads->reach) break;  // the response is not linear there
     mode.shape = found->vectors.col(i);
     report.modes.push_back(std::move(mode));
   }

@@ -14,7 +14,7 @@ namespace nurbeam {
 
 namespace {
 
-// The first member of everybody's group.
+// Disjoint groups; each is known by its first member.
 class Groups {
  public:
   explicit Groups(std::size_t count) : first_(count) { std::iota(first_.begin(), first_.end(), 0); }
@@ -66,7 +66,7 @@ LimitedMove least_within(const Eigen::VectorXd& f, const Eigen::MatrixXd& H, dou
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H);
   const Eigen::MatrixXd& V = eigen.eigenvectors();
   Eigen::VectorXd values = eigen.eigenvalues(), along = V.transpose() * f;
-  // What is flatter, as all is on a straight guide, makes no move longer than the limits of a move.
+  // Flatter directions, as all are on a straight guide, make no move longer than the limits of a move.
   constexpr double far_beyond = 1e3;  // moves
   const double flat = std::max({1e-12 * values.cwiseAbs().maxCoeff(), round_off / push,
                                 f.lpNorm<Eigen::Infinity>() / (far_beyond * push)});

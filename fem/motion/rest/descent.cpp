@@ -14,8 +14,9 @@ namespace nurbeam {
 
 namespace {
 
-// Where nothing pulls a body it may be on a summit: it is pushed off, and put back if it rests there as well
-// [m]. On a guide not far: what else holds it may pull it back from there over the summit.
+// A move off a place where nothing pulls the body, which may be a summit [m]. If it comes back and rests
+// there as well, it is put back. The push on a guide is small: from far off, other connections may pull the
+// body back over the summit.
 double push_off(const BeamModel& model, int rider, double s, Descent& body) {
   ++body.balanced;
   if (body.balanced == 1) {
@@ -28,8 +29,8 @@ double push_off(const BeamModel& model, int rider, double s, Descent& body) {
   return body.balanced == 1 ? push : body.balanced == 2 ? -body.moved : 0;
 }
 
-// What round-off makes of the force that holds a body where nothing pulls it [N]: strains are differences of
-// coordinates over the length of an element.
+// Round-off of the force that holds a body where nothing pulls it [N]: strains are differences of coordinates
+// over the length of an element.
 double force_of_round_off(const MeshedState& at, int rider) {
   const BeamModel& model = at.system->model();
   const double elements = at.state.q.lpNorm<Eigen::Infinity>() / home_spacing(model, rider);
@@ -37,8 +38,8 @@ double force_of_round_off(const MeshedState& at, int rider) {
          model.beam_of(model.riders[rider]).properties.force_of_strain(1 + elements);
 }
 
-// Towards where no force is needed to hold a body [m], by the secant of the last two places: what holds it
-// shows where it does not want to go.
+// A move towards the place where no force is needed to hold a body [m], by the secant of the last two places.
+// The holding force points uphill.
 double step_down(const Descent& body, double s, double force) {
   const double downhill = force < 0 ? body.most : -body.most;
   if (body.moved == 0) return downhill;
@@ -46,8 +47,8 @@ double step_down(const Descent& body, double s, double force) {
   return slope > 0 ? std::clamp(-force / slope, -body.most, body.most) : downhill;
 }
 
-// The force that holds a body less what its friction holds: one that sticks is held by that alone, one that
-// slides goes on until its friction of sliding holds it.
+// The force that holds a body less the part that friction holds. A body that sticks is held by friction
+// alone; a body that slides goes on until its sliding friction holds it.
 double force_beyond_friction(const MeshedState& at, int rider, double force, Descent& body) {
   if (!at.system->model().riders[rider].friction) return force;
   if (body.way == 0) {
@@ -57,7 +58,7 @@ double force_beyond_friction(const MeshedState& at, int rider, double force, Des
   return force + body.way * holding_capacity(*at.system, at.state, rider, false);
 }
 
-// A move that ends at a hard stop where it would go beyond [m].
+// The move `ds`, ended at a hard stop where it would go beyond [m].
 double before_stops(const MeshedState& at, int rider, double s, double ds) {
   for (const Stop& stop : at.system->model().stops) {
     if (stop.rider != rider || stop.other >= 0 || stop.buffer) continue;
@@ -97,7 +98,7 @@ double next_move(const MeshedState& at, int rider, Descent& body) {
   const double force = force_beyond_friction(at, rider, holding_force(*at.system, at.state, rider), body);
   const double s = *place(*at.system, at.state, rider);
   const double spacing = home_spacing(at.system->model(), rider);
-  // Half way back at most: a secant over a buffer's end leads back to where it came from.
+  // A move back is at most half as long: a secant over a buffer's end leads back to where it came from.
   if (body.moved != 0) body.most = body.force * force < 0 ? std::abs(body.moved) / 2 : 2 * body.most;
   body.most = std::min(body.most, 4 * spacing);
   const bool begins = body.moved == 0 || body.balanced > 0;
@@ -138,7 +139,7 @@ void CoupledDescent::next_moves(const MeshedState& at, std::vector<Descent>& bod
                                 std::vector<double>& moves) {
   std::vector<int> movable;
   std::vector<double> forces;
-  double before = 0, round_off = 0;  // what the last move has to say now
+  double before = 0, round_off = 0;  // before: work of the present forces on the last move
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const int j = joints_[k];
     Descent& body = bodies[j];
@@ -158,7 +159,7 @@ void CoupledDescent::next_moves(const MeshedState& at, std::vector<Descent>& bod
   const auto H = holding_stiffness(*at.system, at.state, movable);
   if (movable.empty() || !H) return;
   std::vector<MoveLimit> within = limits(at, movable);
-  // What slides against its friction goes on or stays.
+  // A body that slides against its friction goes on or stays.
   const auto count = static_cast<Eigen::Index>(movable.size());
   for (Eigen::Index i = 0; i < count; ++i)
     if (const int way = bodies[movable[i]].way; way != 0)
@@ -176,7 +177,8 @@ void CoupledDescent::next_moves(const MeshedState& at, std::vector<Descent>& bod
       if (within[k].of == MoveLimit::Of::end) body.leaves = arrived;
     }
     if (arrived) continue;
-    if (std::abs(move.x[at_row]) < 1e-6 * spacing_) body.way = 0;  // it is asked again whether it is held
+    // Friction is asked again whether it holds the body.
+    if (std::abs(move.x[at_row]) < 1e-6 * spacing_) body.way = 0;
     moves[movable[i]] = move.x[at_row];
     moved_[std::find(joints_.begin(), joints_.end(), movable[i]) - joints_.begin()] = move.x[at_row];
   }
@@ -204,8 +206,8 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
       if (!stands_at(model, j, 0, false)) add(row_of(j), -s, Of::end);
       if (!stands_at(model, j, curve.length(), true)) add(-row_of(j), s - curve.length(), Of::end);
     }
-    // But for a hard stop between them, two come no nearer than by a part of their distance at once: a buffer
-    // that one has jumped over pushes the wrong way.
+    // Without a hard stop between them, two bodies approach by at most a part of their distance in one move:
+    // a buffer that a body has jumped over pushes the wrong way.
     for (int other = 0; other < static_cast<int>(model.riders.size()); ++other) {
       const double distance = distance_between(at, j, other);
       if (!std::isfinite(distance) || hard_stop_between(model, j, other)) continue;

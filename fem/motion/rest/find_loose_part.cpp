@@ -7,14 +7,14 @@ namespace nurbeam {
 
 namespace {
 
-// The unit vector whose largest component is positive.
+// The unit vector along a move, with the sign that makes its largest component positive.
 Eigen::Vector3d direction_of(const Eigen::Vector3d& move) {
   Eigen::Index largest = 0;
   move.cwiseAbs().maxCoeff(&largest);
   return (move[largest] < 0 ? -1.0 : 1.0) * move.normalized();
 }
 
-// What moves furthest in a motion (n); nothing where sections turn in their places alone.
+// The part that moves furthest in a motion (n); nothing where sections only turn in their places.
 std::optional<LoosePart> furthest_part(const BeamSystem& system, const Eigen::VectorXd& motion) {
   const Mesh& mesh = system.mesh();
   const BeamModel& model = system.model();

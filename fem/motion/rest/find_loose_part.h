@@ -7,12 +7,13 @@
 
 namespace nurbeam {
 
-/// The loose part of a model at rest, where it is a mechanism there: one of many equilibria. Sections that
-/// turn in their places alone are left out, as nothing else depends on them. Throws Interruption where
+/// The loose part of a model at rest that is a mechanism there, with one of many equilibria. Sections that
+/// only turn in their places are left out, as nothing else depends on them. Throws Interruption where
 /// `interrupted` returns true.
 std::optional<LoosePart> find_loose_part(const MeshedState& at, const std::function<bool()>& interrupted);
 
-/// What moves furthest in the motion that nothing holds, where the tangent is singular; nothing elsewhere.
+/// The part that moves furthest in the motion that nothing holds, where the tangent is singular; nothing
+/// elsewhere.
 std::optional<LoosePart> find_free_part(const MeshedState& at);
 
 }  // namespace nurbeam

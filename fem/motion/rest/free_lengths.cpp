@@ -16,8 +16,8 @@ namespace {
 
 bool is_asked(const Connector& connector) { return connector.length_rule != ConnectorLength::given; }
 
-// One condition per asked connector, in an equilibrium: its residual over its size, and what its free length
-// changes.
+// One condition per asked connector, in an equilibrium: its residual over its size, and its derivatives by
+// the free lengths.
 struct LengthResiduals {
   std::vector<int> connectors;
   Eigen::VectorXd residual, size;
@@ -74,7 +74,7 @@ class LengthEquations {
     return ConnectorAxis<D>(a_.model()->connectors[i], *a_.model(), a_.mesh());
   }
 
-  // dq/dl_0 of the equilibrium, a column per connector.
+  // (n, connectors) dq/dl_0 of the equilibrium.
   Eigen::MatrixXd by_lengths(const std::vector<int>& connectors) const {
     Eigen::SparseMatrix<double> kkt = tangent_matrix(a_, state_, {.stiffness = 1});
     const int n = a_.coordinate_count();
@@ -104,7 +104,7 @@ LengthResiduals conditions_of(const BeamSystem& system, const State& state) {
       system, [&]<int D>(const Assembly<D>& a) { return LengthEquations<D>(system, a, state).conditions(); });
 }
 
-// With springs for what carries one sign alone.
+// The model with springs for asked connectors of one sign.
 std::shared_ptr<BeamModel> two_sided(const BeamModel& model) {
   auto free = std::make_shared<BeamModel>(model);
   for (Connector& connector : free->connectors)
@@ -118,7 +118,7 @@ std::vector<double> lengths_of(const BeamModel& model) {
   return lengths;
 }
 
-// The first connector that would have to carry what it cannot.
+// The first connector whose force would have the wrong sign.
 std::optional<Failure> wrong_sign(const BeamModel& model, const MeshedState& at) {
   for (int i = 0; i < static_cast<int>(model.connectors.size()); ++i) {
     const Connector& connector = model.connectors[i];

@@ -27,7 +27,7 @@ double size_of(const MeshedState& at) {
 double visible_amplitude(const MeshedState& at, const Mode& mode) {
   constexpr double part = 0.05, turn = 0.5;
   const double size = size_of(at);
-  double largest = 0;  // of what each quantity may be
+  double largest = 0;  // largest ratio of a quantity to its limit
   const auto look_at = [&](int first, double limit) {
     largest = std::max(largest, vector_at(*at.system, mode.shape, first).norm() / limit);
   };

@@ -10,9 +10,9 @@ namespace nurbeam {
 /// model's size, no slope by more than 0.5 and no section turns by more than 0.5.
 double visible_amplitude(const MeshedState& at, const Mode& mode);
 
-/// The state at rest moved by `amount` times the shape: places of the points, and as velocities `rate` times
-/// the shape. Section forces, energies and reactions stay those at rest: of large linear displacements they
-/// would mean nothing.
+/// The state at rest moved by `amount` times the shape: places of the points, and velocities of `rate` times
+/// the shape. Section forces, energies and reactions stay those at rest, as they would mean nothing for large
+/// linear displacements.
 Snapshot record_mode(const MeshedState& at, const Mode& mode, double amount, double rate,
                      const std::vector<ProbePlace>& probes);
 

@@ -23,7 +23,7 @@ Matrix coordinate_block(const Matrix& kkt, int n) { return kkt.topLeftCorner(n, 
 
 Failure failure_of(Failure::Kind kind, double growth = 0) { return {.kind = kind, .growth = growth}; }
 
-// At rest, or as drawn without loads.
+// The state of the model at rest, or as drawn without loads.
 MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOptions& options,
                           const std::function<bool()>& interrupted, RestReport& report) {
   MeshedState at = MeshedState::drawn(std::move(model));
@@ -44,7 +44,7 @@ MeshedState state_at_rest(std::shared_ptr<const BeamModel> model, const ModesOpt
   return at;
 }
 
-// Nothing where the state is stable, and K symmetric.
+// The failure of an unstable state or of an unsymmetric K; nothing where the state is stable.
 std::optional<Failure> instability(const MeshedState& at, const Matrix& kkt) {
   const int n = at.system->coordinate_count();
   const std::optional<Stability> found = stability(kkt, n);
@@ -56,7 +56,7 @@ std::optional<Failure> instability(const MeshedState& at, const Matrix& kkt) {
   return failure_of(Failure::Kind::unstable_state, std::sqrt(std::max(0.0, -square)));
 }
 
-/// (n) The coordinates' rates of a translation of everything.
+/// (n) Rates of the coordinates in a translation of the whole model along an axis.
 Vector translation(const BeamSystem& system, int axis) {
   Vector e = Vector::Zero(system.coordinate_count());
   if (axis >= system.dimension()) return e;
@@ -95,7 +95,7 @@ std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::
   return std::nullopt;
 }
 
-// Whether it is there before the loads: the weight of lumps, and what pulls at guided supports.
+// Whether a force acts before the loads: the weight of lumps, and forces at guided supports.
 bool is_permanent(const Force& force) {
   return std::visit(
       [](const auto& described) {

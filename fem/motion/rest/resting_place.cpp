@@ -25,8 +25,8 @@ namespace nurbeam {
 
 namespace {
 
-// How far a rider can move in a direction while its elements keep half of their length [m]: beyond, Newton's
-// method starts far off.
+// Distance that a rider can move in a direction while its elements keep half of their length [m]. Beyond it
+// Newton's method would start too far off.
 double room_to_move(const MeshedState& at, int rider, int direction) {
   const Mesh& mesh = at.system->mesh();
   const int node = mesh.riders[rider].node;
@@ -45,7 +45,7 @@ MeshPlan held_at(const MeshedState& at, const std::vector<double>& places) {
   return plan;
 }
 
-// Where the riders are; one that holds nothing where it was.
+// Present places of the riders; a rider whose body has left keeps its place of the plan.
 std::vector<double> present_places(const MeshedState& at) {
   std::vector<double> places = at.system->mesh().plan.places;
   for (std::size_t j = 0; j < places.size(); ++j)
@@ -53,10 +53,10 @@ std::vector<double> present_places(const MeshedState& at) {
   return places;
 }
 
-// Brings `at` to rest.
+// The search that brings `at` to rest.
 class RestSearch {
  public:
-  // `equilibrium`: the time at which `at` is in equilibrium, where it is.
+  // `equilibrium`: the time at which `at` is in equilibrium, if it is.
   RestSearch(MeshedState& at, const LengthControl& control, const std::function<bool()>& interrupted,
              std::optional<double> equilibrium = {})
       : at_(at), control_(control), interrupted_(interrupted), equilibrium_(equilibrium) {}
@@ -70,13 +70,14 @@ class RestSearch {
     return told([&] { hold_in_equilibrium(at_.system->mesh().plan); });
   }
 
-  // The same on a mesh in which nothing is to change where the motion begins with these speeds.
+  // A held equilibrium on a mesh that needs no change when the motion begins with the riders' initial speeds.
   RestReport held_start() {
     return told([&] {
       MeshPlan plan = at_.system->mesh().plan;
       constexpr int most_rounds = 10;
       for (int round = 0; round < most_rounds && hold_in_equilibrium(std::move(plan)); ++round) {
-        const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
+        // Kept alive, so that no other system gets its address.
+        const std::shared_ptr<const BeamSystem> before = at_.system;
         for (int j = 0; j < riders(); ++j) {
           const Rider& rider = model().riders[j];
           const int dof = at_.system->mesh().riders[j].place;  // length control looks at its speed
@@ -90,7 +91,7 @@ class RestSearch {
     });
   }
 
-  // `slides`: the riders whose bodies look for their place.
+  // `slides`: the riders whose bodies look for their resting place.
   RestReport rest(const std::vector<bool>& slides) {
     return told([&] { look_for_rest(slides); });
   }
@@ -135,7 +136,7 @@ class RestSearch {
     return !report_.failure;
   }
 
-  // A body that has arrived at a free end which it would leave is not at rest there.
+  // The failure of a body that has arrived at a free end which it would leave: it is not at rest there.
   std::optional<Failure> leaving_body(const std::vector<Descent>& bodies) const {
     for (int j = 0; j < riders(); ++j) {
       if (!bodies[j].leaves || !model().riders[j].leave_at_end) continue;
@@ -148,7 +149,7 @@ class RestSearch {
     return {};
   }
 
-  // Takes bodies whose motion is prescribed to where they are at the time.
+  // Moves bodies with a prescribed motion to their places at the present time.
   bool move_driven_bodies() {
     std::vector<double> ds(model().riders.size(), 0);
     for (int j = 0; j < riders(); ++j)
@@ -157,7 +158,8 @@ class RestSearch {
     return move_places(std::move(ds));
   }
 
-  // One move of every body and the equilibrium after it; false where all have arrived, or there is none.
+  // Makes one move of every body and finds the equilibrium after it. False where all have arrived, or there
+  // is no equilibrium.
   bool let_down(std::vector<Descent>& bodies) {
     std::vector<double> ds(bodies.size(), 0);
     for (int j = 0; j < riders(); ++j)
@@ -168,9 +170,9 @@ class RestSearch {
     return !arrived && move_places(std::move(ds));
   }
 
-  // Equilibrium from the state as it is, which is kept on failure. `held`: the riders that are.
+  // Finds the equilibrium from the present state, which is kept on failure. `held`: the held riders.
   StaticReport find_equilibrium(MeshedState& at, const std::vector<bool>& held) {
-    // What hangs on a rod is as stiff as its multiplier makes it.
+    // A part that hangs on a rod has its stiffness from the rod's multiplier.
     if (at.state.lambda.size() != at.system->constraint_count())
       at.state.lambda = Eigen::VectorXd::Zero(at.system->constraint_count());
     at.state.v = at.state.a = Eigen::VectorXd::Zero(at.system->coordinate_count());
@@ -181,7 +183,8 @@ class RestSearch {
     StaticReport found = load(at, from, to);
     if (watches_ && found.status == StaticStatus::converged && (later || !equilibrium_) && !report_.snap)
       report_.snap = find_snap(*at.system, {before, from}, {at.state, to}, interrupted_);
-    // Sections that turn far stop it half way, in charts that go no further.
+    // The search stops half way when sections have turned far from their charts; it goes on in charts of
+    // their own.
     const MeshedState start = at;
     constexpr int most_recentrings = 20;
     for (int turns = 0; found.status != StaticStatus::converged && recentring_due(*at.system, at.state) &&
@@ -197,7 +200,7 @@ class RestSearch {
     return found;
   }
 
-  // From an equilibrium under one loading to that under another, or as far as they are found.
+  // Goes from an equilibrium under one loading to one under another, or as far as equilibria are found.
   StaticReport load(MeshedState& at, Loading from, Loading to) {
     const LoadedBetween system(*at.system, from, to, interrupted_);
     at.state.load = 1;
@@ -217,7 +220,7 @@ class RestSearch {
     return found;
   }
 
-  // With all sliding bodies held where the plan has them.
+  // Finds the equilibrium with all sliding bodies held where the plan has them.
   bool hold_in_equilibrium(MeshPlan plan) {
     const StaticReport found = equilibrium_of(std::move(plan));
     if (found.status == StaticStatus::converged) return true;
@@ -252,8 +255,8 @@ class RestSearch {
         });
   }
 
-  // How much of each move is made at once, with which no rider passes a node: those that are coupled go the
-  // same part of their ways.
+  // The part of each move that is made at once, so that no rider passes a node. Coupled riders go an equal
+  // fraction of their ways.
   std::vector<double> parts_at_once(const std::vector<double>& ds) const {
     std::vector<double> parts;
     for (int j = 0; j < riders(); ++j)
@@ -267,8 +270,8 @@ class RestSearch {
     return parts;
   }
 
-  // Moves held riders to equilibrium, which Newton's first step looks for to first order: by all of the
-  // parts, or by half of them again and again where none is near. Makes of the parts what they were moved by.
+  // Moves held riders to an equilibrium, by all of `parts`, or by half of them again and again where none is
+  // near. Newton's first step predicts it to first order. `parts` become the moves made.
   bool move_by(std::vector<double>& parts) {
     const auto moved_places = [&] {
       std::vector<double> places = present_places(at_);
@@ -288,8 +291,8 @@ class RestSearch {
     return hold_in_equilibrium(held_at(at_, moved_places()));
   }
 
-  // Moves held riders by ds from equilibrium to equilibrium, never past a node at once, and carries length
-  // control along.
+  // Moves held riders by ds from equilibrium to equilibrium, never past a node at once, and applies length
+  // control on the way.
   bool move_places(std::vector<double> ds) {
     while (std::any_of(ds.begin(), ds.end(), [](double rest) { return rest != 0; })) {
       std::vector<double> parts = parts_at_once(ds);
@@ -299,7 +302,8 @@ class RestSearch {
         const int dof = at_.system->mesh().riders[j].place;
         if (dof >= 0) at_.state.v[dof] = parts[j];  // length control looks at it
       }
-      const std::shared_ptr<const BeamSystem> before = at_.system;  // kept: another may get its address
+      // Kept alive, so that no other system gets its address.
+      const std::shared_ptr<const BeamSystem> before = at_.system;
       if (!settle_mesh() || !goes_on(meeting_bodies(at_))) return false;
       at_.state.v.setZero();
       if (at_.system != before && !hold_in_equilibrium(held_at(at_, present_places(at_)))) return false;
@@ -307,7 +311,7 @@ class RestSearch {
     return true;
   }
 
-  // Equilibrium with the riders free that are not held, if there is one nearby; else nothing changes.
+  // Frees the riders that are not `held`, if there is an equilibrium nearby; else nothing changes.
   void free_bodies(const std::vector<bool>& held) {
     MeshedState freed{at_.system->replanned(at_.system->mesh().plan, held), at_.state};
     bool near = find_equilibrium(freed, held).status == StaticStatus::converged;
@@ -322,14 +326,14 @@ class RestSearch {
   MeshedState& at_;
   const LengthControl& control_;
   const std::function<bool()>& interrupted_;
-  std::optional<double> equilibrium_;  // the time of the last one found
+  std::optional<double> equilibrium_;  // time of the last equilibrium found
   std::vector<CoupledDescent> coupled_;
   bool watches_ = false;
-  bool nearby_only_ = false;  // an equilibrium that Newton's method finds at once
+  bool nearby_only_ = false;  // accept only an equilibrium that Newton's method finds at once
   RestReport report_;
 };
 
-// The riders whose bodies look for their place; `otherwise`: those that do not say.
+// The riders whose bodies look for their resting place. `otherwise`: the rule for StaticPlace::automatic.
 std::vector<bool> sliding_at_rest(const BeamModel& model, StaticPlace otherwise) {
   std::vector<bool> slides;
   for (const Rider& rider : model.riders) {

@@ -7,39 +7,38 @@
 
 namespace nurbeam {
 
-/// How a search for rest ended, and what it took.
+/// The outcome of a search for rest, and its cost.
 struct RestReport {
-  std::optional<Failure> failure = {};  ///< nothing where it was found, or the search interrupted
+  std::optional<Failure> failure = {};  ///< nothing where rest was found, or the search interrupted
   bool interrupted = false;
-  /// Whether what rests anywhere but at an end, a stop or by friction is free to slide there in the state
-  /// that was found; else it is held, as nothing was found nearby with which it is free.
+  /// Whether bodies that rest neither at an end or a stop nor by friction are free to slide in the state
+  /// found. False: they are held, as no equilibrium with free bodies was found nearby.
   bool freed = true;
-  bool diverges = false;             ///< StaticReport::diverges of an equilibrium on the way
-  std::optional<Loading> snap = {};  ///< what the model snaps through or buckles under, on the way
+  bool diverges = false;             ///< StaticReport::diverges of one of the equilibria
+  std::optional<Loading> snap = {};  ///< loading under which the model snaps through or buckles on the way
   long load_steps = 0, newton_iterations = 0;
   double length_control_seconds = 0;
 };
 
 /// Brings a model to equilibrium with all sliding bodies held where they are; the mesh then holds them.
-/// `interrupted` is asked at every Newton iteration, here and below; a search that it ends leaves a state
+/// `interrupted` is asked at every Newton iteration, here and below. An interrupted search leaves a state
 /// that is no equilibrium.
 [[nodiscard]] RestReport find_held_equilibrium(MeshedState& at,
                                                const std::function<bool()>& interrupted = {});
 
-/// Brings a model that is drawn to the equilibrium that its motion starts from: sliding bodies are held where
-/// they are, but for those that say that they look for their place (StaticPlace).
+/// Brings a drawn model to the equilibrium in which its motion starts: sliding bodies are held where they
+/// are, except those that look for their resting place (StaticPlace).
 [[nodiscard]] RestReport find_start(MeshedState& at, const LengthControl& control,
                                     const std::function<bool()>& interrupted);
 
-/// Brings a model that is drawn to equilibrium, its sliding bodies where they rest, but for those that
-/// are to be held (StaticPlace). They are held, let down
-/// the slope in bounded moves that halve where the force along the beam changes sign, and freed for the last
-/// digits unless they rest against an end.
+/// Brings a drawn model to equilibrium with its sliding bodies where they rest, except those that are to be
+/// held (StaticPlace). Bodies are held and descend in bounded moves, halved where the force along the beam
+/// changes sign. For the last digits they are freed, unless they rest against an end.
 [[nodiscard]] RestReport find_rest(MeshedState& at, const LengthControl& control,
                                    const std::function<bool()>& interrupted);
 
-/// Brings a model from rest to rest under its loads at time t, of which those of State::t are followed to it.
-/// Where it fails the state is that of the last equilibrium on the way.
+/// Brings a model from rest to rest under its loads at time t, following the loads from those of State::t.
+/// Where it fails, the state is the last equilibrium on the way.
 [[nodiscard]] RestReport find_next_rest(MeshedState& at, double t, const LengthControl& control,
                                         const std::function<bool()>& interrupted);
 

@@ -16,12 +16,12 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double resolution = 1e-3;  // of the way
+constexpr double resolution = 1e-3;  // part of the way
 constexpr double near_no_load = 0.02;
-constexpr int few_load_steps = 12, most_load_steps = 400;  // of one, and of all equilibria in between
+constexpr int few_load_steps = 12, most_load_steps = 400;  // of one equilibrium, and of all in between
 
-// What adds up to the angles of sections about the axis. A round section may turn freely in its place, and
-// nothing else depends on that.
+// Coordinates that add up to the angles of sections about the axis. A round section may turn freely in its
+// place, and nothing else depends on these.
 std::vector<int> turning_coordinates(const Mesh& mesh) {
   std::vector<int> found;
   const auto add = [&](int coordinate) {
@@ -46,7 +46,7 @@ class SnapSearch {
         turning_(turning_coordinates(system.mesh())),
         first_(from.load > 0 ? 0 : near_no_load) {}
 
-  // How far on the way from `from` to `to` (0 and 1).
+  // The part of the way from `from` (0) to `to` (1) at which the branch ends; nothing where it does not.
   std::optional<double> run(const State& from, const State& to) {
     State start = from;
     StaticReport found = settled(start, 0, 0, few_load_steps);
@@ -63,13 +63,13 @@ class SnapSearch {
  private:
   struct Point {
     State state;
-    double part;  // of the way
+    double part;  // part of the way
   };
 
   std::optional<double> between(const Point& a, const Point& b) {
     if (b.part <= first_ || joined(a, b)) return {};
     if (b.part - a.part <= resolution) {
-      constexpr double jump = 0.02;  // of the whole way: twenty times what it would go on an even one
+      constexpr double jump = 0.02;  // part of the whole way: twenty times an even share
       if (distance(a.state, b.state) > jump * whole_) return b.part;
       return {};
     }
@@ -79,7 +79,8 @@ class SnapSearch {
     return between(*middle, b);
   }
 
-  // From the one before it where that is not far, or else from the one after it.
+  // The equilibrium half way between two, started from the earlier one if that is not far, else from the
+  // later one.
   std::optional<Point> between_equilibria(const Point& a, const Point& b) {
     const double part = (a.part + b.part) / 2;
     for (const auto& [from, load_steps] :
@@ -102,25 +103,26 @@ class SnapSearch {
     return found;
   }
 
-  // Whether what has been bent without loads holds more than all loads could have done on the way there.
+  // Whether the bending energy of a model bent without loads exceeds the work that all loads could do on the
+  // way there.
   bool outweighs_loads(const State& drawn, const State& bent) const {
     const Point point{bent, 0};
     const Vector loads = (residual(point, 1) - residual(point, 0)).head(scale_.size());
     return loads.cwiseProduct(scale_).lpNorm<1>() * distance(drawn, bent) <= energy(system_, bent).bending;
   }
 
-  // Whether the tangents at both ends lead from one to the other.
+  // Whether the tangents at both points lead from one to the other.
   bool joined(const Point& a, const Point& b) const {
-    constexpr double astray = 0.5, round_off = 1e-6;  // of the whole way
+    constexpr double astray = 0.5, round_off = 1e-6;  // part of the whole way
     if (distance(a.state, b.state) <= round_off * whole_) return true;
     const Vector way = seen(b.state.q - a.state.q);
     const auto leads = [&](const Vector& move) { return (move - way).norm() <= astray * way.norm(); };
     return leads(heading(a, b.part)) && leads(-heading(b, a.part));
   }
 
-  // (n) The move that the tangent gives; zero where it is singular.
+  // (n) The move by the tangent; zero where it is singular.
   Vector heading(const Point& from, double part) const {
-    constexpr double held = 1e-8;  // of what resists an angle, so that none is free
+    constexpr double held = 1e-8;  // part of the stiffness of an angle, so that none is free
     const int n = system_.coordinate_count();
     Eigen::SparseMatrix<double> tangent = tangent_matrix(way_, at(from, from.part), {.stiffness = 1});
     for (const int i : turning_) tangent.coeffRef(i, i) *= 1 + held;
@@ -141,7 +143,7 @@ class SnapSearch {
   }
 
   double distance(const State& a, const State& b) const { return seen(a.q - b.q).lpNorm<Eigen::Infinity>(); }
-  // (n) Over the scales, without what turns sections in their places.
+  // (n) A move over the scales of its coordinates, without those that turn sections in their places.
   Vector seen(const Vector& move) const {
     Vector over = move.cwiseQuotient(scale_);
     for (const int i : turning_) over[i] = 0;

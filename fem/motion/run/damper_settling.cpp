@@ -14,10 +14,10 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double first_step_of_damper = 0.1;  // of m/c
+constexpr double first_step_of_damper = 0.1;  // part of m/c
 constexpr double growth_beside_damper = 1.2;  // from step to step
 
-// The acceleration that a change of the memory makes; nothing where the mass matrix is singular.
+// The acceleration that a change of the memory causes; nothing where the mass matrix is singular.
 template <class Change>
 std::optional<Eigen::VectorXd> change_of_acceleration(const MeshedState& at, const Change& change) {
   State with = at.state, without = at.state;
@@ -45,7 +45,7 @@ std::optional<double> time_of_connector(const MeshedState& at, int number) {
   const auto damped = change_of_acceleration(
       at, [&](Eigen::VectorXd& memory) { set_taut(at.system->mesh().memory, memory, number, false); });
   if (!damped) return {};
-  // Its force is linear in what it is stretched by.
+  // The force of the connector is linear in its stretch and rate.
   const auto force = [&](const Eigen::VectorXd& v) {
     State moving = at.state;
     moving.v = v;
@@ -71,7 +71,7 @@ bool settle_damper(Run& run, const StepEvent& event) {
     return true;
   }
   if (!time) return run.fail(Failure::Kind::mass_matrix);
-  // What settles sooner than steps can be is an impact.
+  // A damper that settles sooner than the shortest step acts as an impact.
   const double asked = std::max(first_step_of_damper * *time, run.resolution());
   if (!(asked < run.step)) return true;
   run.transient = run.transient > 0 ? std::min(run.transient, asked) : asked;

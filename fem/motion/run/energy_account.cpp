@@ -53,8 +53,9 @@ bool is_driven(const BeamModel& m) {
              [](const Beam& beam) { return !beam.properties.free_strain.thermal.empty(); });
 }
 
-// Midpoint rule with the mean rates of the step: what a transient shorter than the step does not falsify. The
-// middle is on the way, not on its chord: what slides along a curve would leave it.
+// Dissipation by the midpoint rule with the mean rates of the step, which a transient shorter than the step
+// does not falsify. The middle is on the path, not on its chord, as a body that slides along a curve would
+// leave it.
 double dissipated_between(const BeamSystem& system, const State& from, const State& to) {
   State middle = from;
   const double h = to.t - from.t;
@@ -63,8 +64,9 @@ double dissipated_between(const BeamSystem& system, const State& from, const Sta
   return h * energy(system, middle).dissipation;
 }
 
-// Of what the accelerations of a restart leave out of balance (make_accelerations_smooth), where damping
-// ends it: transients that the step does not follow, of which the trapezoidal rule takes half.
+// Work of the forces that the accelerations of a restart leave out of balance (make_accelerations_smooth),
+// where damping ends it. The step does not follow these transients, and the trapezoidal rule takes half of
+// them.
 double unbalanced_work(const BeamSystem& system, const State& from, const State& to) {
   if (!has_damped_beams(system.model()) && !has_dampers(system)) return 0;
   Eigen::VectorXd dynamics(system.coordinate_count()), closed(system.constraint_count());
@@ -88,12 +90,13 @@ double lost_in_step(const BeamSystem& system, const StepPath& step, bool first) 
   });
   const State& settled = step.within.empty() ? step.after : step.within.front();
   if (!first) return lost;
-  // Nor does a transient give anything back.
+  // A transient gives no energy back either.
   return std::max(0.0, lost - unbalanced_work(system, step.before, settled));
 }
 
-// Integral of the polynomial through values at the states behind the start: of Radau's method by its weights.
-// The value at the start is that of the interval before, from which accelerations of motions may jump.
+// Integral of the polynomial through the values at the states after the start: for Radau's method by its
+// weights. The value at the start is left out: it belongs to the interval before, and accelerations of
+// prescribed motions may jump there.
 template <class Rate>
 double integral(const StepPath& step, const Rate& rate) {
   const double h = step.after.t - step.before.t;
@@ -110,7 +113,8 @@ double integral(const StepPath& step, const Rate& rate) {
   return h * powers.partialPivLu().solve(means).dot(rates);
 }
 
-// By Simpson's rule: the sum over halves and that over the whole, which are of second order, extrapolated.
+// Work of loads by Simpson's rule: extrapolated from the sums over the halves and over the whole, which are
+// of second order.
 double load_work_by_halves(const BeamSystem& system, const State& from, const State& to) {
   const State middle = between(from, to, 0.5);
   const double halves = load_work(system, from, middle) + load_work(system, middle, to);
@@ -126,7 +130,7 @@ double taken_in_step(const BeamSystem& system, const StepPath& step, const StepP
   return by_loads + integral(forces, [&](const State& state) { return motion_power(system, state); });
 }
 
-// What events that are not in the books have added.
+// Energy added by events that the account does not include.
 double given_by_events(const std::vector<RunEvent>& events) {
   double given = 0;
   for (const RunEvent& event : events)

@@ -9,25 +9,25 @@
 
 namespace nurbeam {
 
-/// A step, with states within it in order of time where its method has some: energies that go from state to
-/// state are the more exact for them, and forces of motions are theirs, not those of the state before.
+/// A step, with the states within it in order of time, if its method has some. Energies summed from state to
+/// state are more accurate with them. Forces of prescribed motions belong to them, not to the state before.
 struct StepPath {
   const State& before;
   const State& after;
   std::span<const State> within = {};
-  /// Whether the cubic between them is nearer to the motion than the mean of two, which is that of a method
-  /// whose own books are by the trapezoidal rule.
+  /// Whether the cubic between two states is nearer to the motion than their mean is. The mean suits a method
+  /// whose own energy balance is by the trapezoidal rule.
   bool is_cubic = false;
 };
 
-/// Whether places are moved from outside.
+/// Whether places or supports have prescribed motions.
 bool has_prescribed_motions(const BeamModel& model);
 
-/// The books of a run's energy [J]: what it has lost and what has come from outside since its start.
+/// The account of a run's energy [J]: losses and input from outside since its start.
 class EnergyAccount {
  public:
   EnergyAccount() = default;
-  /// As a checkpoint has it.
+  /// An account from the values of a checkpoint.
   EnergyAccount(double dissipated, double input, double start)
       : dissipated_(dissipated), input_(input), start_(start) {}
 
@@ -35,24 +35,25 @@ class EnergyAccount {
   double input() const { return input_; }
   double start() const { return start_; }
 
-  /// The motion begins with this state.
+  /// Starts the account with the first state of the motion.
   void begin(const BeamSystem& system, const State& state);
   void lose(double energy) { dissipated_ += energy; }
   void take_in(double energy) { input_ += energy; }
-  /// Books what a step loses and takes in; `first` after a restart, whose accelerations are not those of the
-  /// moment. `forces`: the step with the multipliers by which motions work.
+  /// Adds the losses and the input of a step. `first`: the first step after a restart, whose accelerations
+  /// are not consistent with its start. `forces`: the step with the multipliers that give the work of
+  /// prescribed motions.
   void add_step(const BeamSystem& system, const StepPath& step, bool first, const StepPath& forces);
-  /// Whether a step makes more energy than error control leaves: a part of the kinetic and strain energy, or
-  /// of what gravity gave. Asked of one step after the other.
+  /// Whether a step creates more energy than error control allows: a part of the kinetic and strain energy,
+  /// or of the change of gravity energy. Steps are asked about in order.
   bool creates_energy(const BeamSystem& system, const StepPath& step, bool first,
                       const SimulationReport& report);
 
-  /// Writes the books into a snapshot, whose total energy has been the mechanical one.
+  /// Enters the account into a snapshot, whose total energy was the mechanical energy before.
   void enter(Snapshot& snapshot) const;
-  /// Takes the errors and the scales of energy in a snapshot down in the report.
+  /// Records the energy errors and energy scales of a snapshot in the report.
   void record(const Snapshot& snapshot, SimulationReport& report);
-  /// Where all that moves has come from nowhere, what would follow means nothing: the energy that has, by
-  /// this state; where it is more than `slight`.
+  /// The energy that has come from nowhere by this state, where it exceeds all energy of the motion and
+  /// `slight`, so that what follows would mean nothing; else nothing.
   std::optional<double> from_nowhere(const BeamSystem& system, const State& state,
                                      const SimulationReport& report, double slight) const;
 
@@ -64,13 +65,13 @@ class EnergyAccount {
 /// The energy of bending each beam by a tenth of a radian [J].
 double slight_bending(const BeamModel& model);
 
-/// The energy in all beams of strains that are round-off, 1e-11, or a thousandth of what heat makes of them,
-/// and what lifts bodies by as much of the longest beam: where a beam expands freely, or nothing moves,
-/// nothing else is there to compare an error with [J].
+/// A noise level of energy [J], for beams that expand freely and models at rest, where no other energy gives
+/// a scale. It is the energy in all beams of a strain of 1e-11 (round-off) or a thousandth of the thermal
+/// strain, and of lifting bodies by 1e-11 of the longest beam.
 double energy_noise(const BeamModel& model);
 
-/// A change of the mesh that changes the energy, which is this by `now`, by too much, as its event has it;
-/// beams with the elements and rules of the papers, which are there for comparison, do as they do.
+/// Whether the event of a change of the mesh changes the energy by too much. `now`: the present energy. Beams
+/// with the elements and rules of the papers, which are there for comparison, may change it.
 bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEvent& event,
                     const SimulationReport& report);
 

@@ -12,11 +12,12 @@ namespace nurbeam {
 /// The methods that a motion can be integrated with.
 using IntegratorSettings = std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta, Radau>;
 
-/// Whether a method damps what is quicker than its steps, and wants no accelerations that contain it.
+/// Whether a method damps motions quicker than its steps, and needs accelerations without them.
 bool damps_fast_motions(const IntegratorSettings& settings);
 
 /// An integrator that goes on from a state with consistent accelerations. The system must outlive it.
-/// `before`: one with these settings on another mesh of the same model, whose scales last.
+/// `before`: an integrator with these settings on another mesh of the same model, whose scales are taken
+/// over.
 std::unique_ptr<Integrator> start_integrator(const IntegratorSettings& settings,
                                              const SecondOrderSystem& system, const State& from,
                                              const Integrator* before = nullptr);

@@ -11,8 +11,8 @@ namespace nurbeam {
 
 bool Run::restart() {
   const double time = shortest_time();
-  // Steps of such methods close places alone. What they leave of velocities, a first step that is much
-  // shorter than they were would take for a blow.
+  // Steps of such methods close constraints of places only. A much shorter first step would take the errors
+  // left in velocities for an impact.
   const bool closed =
       time == 0 || change([&](MeshedState& of) {
         return project_velocities(*of.system, of.state, time).status == ConsistencyStatus::done;
@@ -28,7 +28,7 @@ bool Run::restart() {
 }
 
 bool Run::restart_balanced(const std::vector<int>& around) {
-  // Other methods want accelerations that are consistent everywhere.
+  // Other methods need accelerations that are consistent everywhere.
   if (!damps_fast_motions(options.integrator)) return restart();
   const double time = shortest_time();
   NearSolver solver;

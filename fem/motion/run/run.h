@@ -10,72 +10,76 @@
 
 namespace nurbeam {
 
-/// A motion at one moment of a simulation: what its steps, events and changes of the mesh share. Functions of
-/// it that return a bool say whether the run goes on; where it does not, the report knows why.
+/// A run: a motion at one moment of a simulation, shared by its steps, events and changes of the mesh. Its
+/// functions that return a bool tell whether the run goes on; where it does not, the report has the reason.
 struct Run {
   std::shared_ptr<const BeamModel> model;
   const SimulationOptions options;
   const SimulationObserver observer;
   MeshedState at = {};
   std::unique_ptr<Integrator> integrator = {};
-  double step = 1e-4;      ///< asked for next: fixed, or what error control suggests [s]
-  double transient = 0;    ///< what steps may be at most while a damper that was met settles; 0: any [s]
-  bool restarted = false;  ///< and no step since
+  double step = 1e-4;      ///< length of the next step: fixed, or suggested by error control [s]
+  double transient = 0;    ///< upper limit of steps while a damper that was met settles; 0: none [s]
+  bool restarted = false;  ///< restarted, with no step since
   EnergyAccount account = {};
   SimulationReport report = {};
   MeshWatch watch = {};
-  std::size_t events_at_once = 0;  ///< since time has last gone on
+  std::size_t events_at_once = 0;  ///< number of events since time last advanced
   double last_step = 0;            ///< [s]
   StepRecord last_record = {};
   std::vector<StepRecord> steps = {};  ///< since the last snapshot
 
-  /// Does something to the state, and to those of neighbouring models that follow; whether it could be done
-  /// to the run's own.
+  /// Applies a change to the state, and to the states of neighbouring models that follow. Returns whether it
+  /// succeeded for the run's own state.
   template <class Change>
   bool change(const Change& change) {
     const bool done = change(at);
     follow(change);
     return done;
   }
-  /// Tells a follower what has led to the present state.
+  /// Tells a follower the change that has led to the present state.
   template <class Change>
   void follow(const Change& change) const {
     if (observer.follower) observer.follower->changes(at, change);
   }
-  /// The same where neighbours are found beside the run's own motion: it goes first, from its state before.
+  /// Tells a follower the change where neighbours are found beside the run's own motion: `own`, the run's
+  /// state before, is changed first.
   template <class Change>
   void follow_from(MeshedState own, const Change& change) const {
     if (!observer.follower) return;
     if (change(own)) follow(change);
   }
-  /// Whether it has not moved from its drawing yet.
+  /// Whether the model has not moved from its drawing yet.
   bool is_as_drawn() const { return report.steps == 0 && !options.start_from_equilibrium; }
-  /// New integrator from the present state, with velocities and accelerations that are consistent.
+  /// Starts a new integrator from the present state, with consistent velocities and accelerations.
   bool restart();
-  /// After a change of the mesh or its charts, which has left all but these unknowns as they were
-  /// (changed_unknowns; none: any): accelerations are carried over but for what is out of balance.
+  /// Restarts after a change of the mesh or its charts, which has left all unknowns but `around` as they were
+  /// (changed_unknowns; empty: any may have changed). Accelerations are carried over, except where they are
+  /// out of balance.
   bool restart_balanced(const std::vector<int>& around);
-  /// Writes an event down.
+  /// Records an event.
   void note(RunEvent event);
-  /// A state that a step of that length has ended in, with the multipliers of the moment. Steps close the
-  /// constraints' places alone: where error control changes their length the multipliers are the second
-  /// differences of what that leaves of velocities, forces of the step, a tenth of them off and more. Else,
-  /// and of what is followed, as derivatives are those of the step, the state itself.
+  /// The state with the multipliers of the present moment, at the end of a step of that length.
+  ///
+  /// Steps close constraints of places only. When error control varies the length of steps, the multipliers
+  /// are second differences of the errors left in velocities: forces of the step, wrong by a tenth and more.
+  /// With fixed steps, and with followers, whose derivatives are those of the step, the state is returned
+  /// unchanged.
   State at_the_moment(const State& state, double length) const;
 
-  /// What of a checkpoint is the run's: the simulation adds what it has written, and the time that took.
+  /// The run's part of a checkpoint; the simulation adds what it has written, and the time taken.
   Checkpoint checkpoint() const;
   void go_on_from(const Checkpoint& point);
 
   bool goes_on(std::optional<Failure> failure);
   bool fail(Failure::Kind kind) { return goes_on(Failure{.kind = kind, .time = at.state.t}); }
-  /// In the impact at the end or a break of a rider's beam.
+  /// Fails in the impact at the end or a break of a rider's beam.
   bool fail_in_impact(int rider);
 
-  /// Shorter than this nothing is followed: the next step of a method for stiff systems [s].
+  /// The shortest time to follow: the next step of a method for stiff systems, else 0 [s].
   double shortest_time() const;
-  /// A step much shorter than the others would take the round-off of positions for velocities. What is left
-  /// after an event just before an output time is not worth one [s].
+  /// The shortest step [s]. A step much shorter than the others would take the round-off of positions for
+  /// velocities, and the rest of time between an event and an output time is not worth a step.
   double resolution() const;
   double mechanical_energy() const;
 

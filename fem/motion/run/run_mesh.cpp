@@ -12,7 +12,7 @@ namespace nurbeam {
 
 namespace {
 
-// Ends the run where a change of the mesh can neither be made, at that cost, nor wait.
+// Ends the run where a change of the mesh can neither be made, at that cost of energy, nor wait.
 void refuse(Run& run, const NextPlan& next, std::optional<double> cost) {
   Failure failure{.kind = Failure::Kind::projection, .time = run.at.state.t, .places = places_of(run.at)};
   if (cost) {
@@ -23,7 +23,7 @@ void refuse(Run& run, const NextPlan& next, std::optional<double> cost) {
   run.report.fail(std::move(failure));
 }
 
-// Tells a follower of a change that has been made.
+// Tells a follower of a change of the mesh that was made.
 void follow_change(const Run& run, const MeshedState& before, const NextPlan& next,
                    const ChangedMesh& changed) {
   const BeamSystem& system = *run.at.system;
@@ -33,7 +33,7 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
     return !change_mesh_like(of, {next.change, next.rider, plan_of(of)}, system, changed.keeping, solvers);
   };
   const auto change = [&, first = true](MeshedState& of) mutable {
-    // The run's own motion goes before those that are found beside it.
+    // The run's own motion is changed first, before the neighbours that are found beside it.
     if (MeshedState own = before; std::exchange(first, false)) (void)make(own);
     return make(of);
   };
@@ -46,8 +46,8 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
       change);
 }
 
-// Applies one change of the mesh if one is due and can be; one that would cost energy waits as long as it
-// can.
+// Applies one change of the mesh if one is due and possible. A change that would cost energy waits as long as
+// it can.
 bool change_due_mesh(Run& run) {
   if (run.watch.is_quiet(run.at.system, run.at.state)) return false;
   const auto start = std::chrono::steady_clock::now();

@@ -3,12 +3,12 @@
 
 namespace nurbeam {
 
-/// Applies the changes of the mesh that are due, each with an event and a new start of the integrator. One
-/// that would change the energy by too much waits as long as the motion can go on without it (can_wait), and
-/// ends the run where it cannot: what came after it would be another motion.
+/// Applies the changes of the mesh that are due, each with an event and a restart of the integrator. A change
+/// that would change the energy by too much waits as long as the motion can go on without it (can_wait).
+/// Where it cannot wait it ends the run, as another motion would follow.
 void settle_mesh(Run& run);
 
-/// Exchanges the charts of sections that have turned far; whether the run goes on.
+/// Replaces the charts of sections that have turned far; returns whether the run goes on.
 [[nodiscard]] bool recentre_sections(Run& run);
 
 }  // namespace nurbeam

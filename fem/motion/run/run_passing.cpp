@@ -16,14 +16,14 @@ namespace nurbeam {
 
 namespace {
 
-// Whether the last event was that the body left its stop at that moment.
+// Whether the last event is that this body left its stop at this moment.
 bool has_just_left(const std::vector<RunEvent>& events, const RunEvent& event) {
   return !events.empty() && events.back().kind == EventKind::leaves_stop &&
          events.back().time == event.time && events.back().body == event.body;
 }
 
-// Bodies with friction stick or slide as forces and velocities now are; what sticks stored is lost, and comes
-// from what held it where it begins to.
+// Lets bodies with friction stick or slide by their present forces and velocities. Energy in the stick is
+// lost when a body breaks loose; when it begins to stick, this energy comes from the hold before.
 bool settle_sticking(Run& run, const std::vector<int>& riders, bool at_rest) {
   if (riders.empty()) return true;
   const double before = run.mechanical_energy();
@@ -37,8 +37,8 @@ bool settle_sticking(Run& run, const std::vector<int>& riders, bool at_rest) {
   return true;
 }
 
-// A rider's body in the next element: with its energy kept, or as of a neighbouring motion
-// where that is known. `neighbour`, which may be null: see BeamSystem::replanned. False where velocities
+// Moves a rider's body into the next element, with its energy conserved, or, where `keeping` is known, as in
+// a neighbouring motion. `neighbour`, which may be null: see BeamSystem::replanned. False where velocities
 // cannot be projected.
 bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighbour,
              std::optional<EnergyKeeping>& keeping, NeighbourSolvers& solvers) {
@@ -48,13 +48,13 @@ bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighb
       crossing.s + (crossing.forward ? beyond : -beyond);
   auto next = at.system->replanned(present_plan(*at.system, at.state), {}, neighbour);
   if (!rider.follows_section) {
-    // Over the seam of a ring the rider's node is the first instead of the last, or the other way round.
+    // On a ring the rider's node may go over the seam: from last to first, or from first to last.
     State moved = interpolated(*at.system, at.state, *next);
     at = {std::move(next), std::move(moved)};
     return true;
   }
   // Curvature and twist jump from element to element, and with them the motion of a body that follows the
-  // section: an impact.
+  // section. This is an impact.
   std::optional<Transferred> moved = keeping ? projected_like(*at.system, at.state, *next, *keeping, solvers)
                                              : projected(*at.system, at.state, *next);
   if (!moved) return false;
@@ -63,7 +63,7 @@ bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighb
   return true;
 }
 
-// False where the impact is singular.
+// Ends the sliding of a body at an end of its beam. False where the impact is singular.
 bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double step) {
   const int rider = ending.rider;
   MeshPlan plan = present_plan(*at.system, at.state);
@@ -109,7 +109,7 @@ bool pass_event(Run& run, const StepEvent& event, Arrival arrival) {
   if (!settle_damper(run, event) || !run.restart()) return false;
   finish_event(run.at, happened);
   std::vector<RunEvent>& events = run.report.events;
-  // A follower has been told that it left.
+  // A follower has been told already that the body left.
   if (arrival != Arrival::in_step && happened.kind == EventKind::rests_at_stop &&
       has_just_left(events, happened) && !run.observer.follower)
     events.pop_back();
@@ -135,8 +135,8 @@ bool rests_by(const Run& run, const StepEvent& event) {
 bool step_over(Run& run, const Crossing& crossing) {
   const bool follows_section = run.model->riders[crossing.rider].follows_section;
   const double before = follows_section ? run.mechanical_energy() : 0;
-  std::optional<EnergyKeeping> keeping;    // of the run, which is the first to go over
-  std::shared_ptr<const BeamSystem> over;  // its own
+  std::optional<EnergyKeeping> keeping;    // of the run, whose own motion goes over first
+  std::shared_ptr<const BeamSystem> over;  // system of the run's own motion
   NeighbourSolvers solvers;
   const auto pass = [&](MeshedState& at) {
     return go_over(at, corresponding_crossing(crossing, *run.model, at.system->model()), over.get(), keeping,
@@ -161,7 +161,7 @@ bool end_sliding(Run& run, const Crossing& ending) {
   if (!ended) return run.fail_in_impact(rider);
   if (!run.restart()) return false;
   finish_event(run.at, event);
-  // In the impact, or what friction and buffers stored.
+  // Energy lost in the impact, or stored by friction and buffers.
   run.account.lose(event.energy_before - event.energy_after);
   run.note(std::move(event));
   return true;
@@ -174,7 +174,8 @@ bool pass_kink(Run& run) {
     const std::optional<Crossing> end =
         end_reached(*run.at.system, run.at.state, kink.rider, kink.before > 0);
     const Rider& rider = run.model->riders[kink.rider];
-    const bool goes_on = run.at.state.t < rider.motion->rows().back().first;  // on the beam
+    // The motion goes on along the beam.
+    const bool goes_on = run.at.state.t < rider.motion->rows().back().first;
     const bool leaves = end && kink.before != 0 && !goes_on && rider.leave_at_end;
     if (!leaves || is_held(*run.model, *end))
       jumping = kink.rider;

@@ -15,11 +15,11 @@ namespace nurbeam {
 
 namespace {
 
-// Whether states between those of a step are worth it: see StepPath.
+// Whether a cubic between the states of a step is accurate: see StepPath.
 bool is_cubic(const Run& run) { return !std::holds_alternative<GeneralizedAlpha>(run.options.integrator); }
 
-// A step of the integrator of at most that length. Under error control one that creates energy, as a wrong
-// root of a snap does, counts as failed.
+// Takes a step of the integrator of at most that length. Under error control a step that creates energy, as a
+// wrong root of a snap does, counts as failed.
 StepReport step_keeping_energy(Run& run, const IntegratorHistory& history, double step) {
   constexpr int most_halvings = 12;
   const State& before = run.at.state;
@@ -39,21 +39,20 @@ StepReport step_keeping_energy(Run& run, const IntegratorHistory& history, doubl
   return taken;
 }
 
-// Repeats the step that was taken so that it ends just before a place.
+// Repeats the step so that it ends just before a place.
 void land_at(Run& run, const StepTaken& taken, const Crossing& crossing) {
   State landing = landed(*run.at.system, *run.integrator, taken, crossing);
   run.at.state = std::move(landing);
 }
 
-// Friction, stops and connectors, and bodies on guides have events.
+// Whether a model can have events: by friction, stops and connectors, or by bodies on guides.
 bool has_events(const BeamModel& model) {
   return MemoryPlaces(model).size > 0 ||
          std::any_of(
              model.beams.begin(), model.beams.end(), [](const Beam& beam) { return beam.rigid; });
 }
 
-// Whether a step may be taken back: to where a place is reached or an event happens, by error control, or for
-// neighbours that follow.
+// Whether a step may be taken back: to a place or an event, by error control, or for neighbours that follow.
 bool may_be_repeated(const Run& run) {
   return !run.options.step || run.observer.follower || !run.model->riders.empty() || has_events(*run.model);
 }
@@ -62,10 +61,10 @@ std::size_t kinds_of_event(const BeamModel& model) {
   return model.riders.size() + model.stops.size() + model.connectors.size();
 }
 
-// That follow each other at one moment before they are taken for one that will never pass.
+// Number of events in a row at one moment that count as endless.
 std::size_t most_at_once(const BeamModel& model) { return 100 * (1 + kinds_of_event(model)); }
 
-// Events of connectors are of no one body.
+// The failure of endless events; an event of a connector belongs to no one body.
 Failure endless(const Run& run, const StepEvent& event) {
   Failure failure{.kind = Failure::Kind::step,
                   .time = run.at.state.t,
@@ -82,21 +81,22 @@ Arrival arrival_at_once(const Run& run) {
   return run.events_at_once > most_at_once(*run.model) / 10 ? Arrival::in_chain : Arrival::at_once;
 }
 
-// Whether an event gives a velocity at once, which a step too short to resolve it would take from round-off.
+// Whether an event changes a velocity at once. A step too short to resolve it would take the velocity from
+// round-off.
 bool is_sudden(const BeamModel& model, const StepEvent& event) {
   const auto* contact = std::get_if<ContactEvent>(&event);
   return !contact || contact->stop < 0 || !model.stops[contact->stop].buffer;
 }
 
-// Repeats a step in which an event happens so that it ends there, or that it does not begin where that is
-// sooner than steps resolve.
+// Repeats a step in which an event happens, so that it ends there. If the event is sooner than steps resolve,
+// the step is taken back to its start.
 std::optional<StepEvent> land_on_event(Run& run, const State& before, const IntegratorHistory& history,
                                        StepStart start) {
   std::optional<StepEvent> found;
   const BeamModel& model = *run.model;
   if (!has_events(model)) return found;
   State& state = run.at.state;
-  // The first found need not come first.
+  // The first event found need not be the earliest.
   for (std::size_t i = 0; i <= kinds_of_event(model) && state.t > before.t; ++i) {
     const std::optional<StepEvent> event = first_event(*run.at.system, before, state, start);
     if (!event) break;
@@ -109,8 +109,8 @@ std::optional<StepEvent> land_on_event(Run& run, const State& before, const Inte
   return found;
 }
 
-// Under error control: repeats a step at whose end a change of the mesh is due so that it ends where it
-// falls due. Else when it comes would depend on the steps, and with it how the mesh goes on.
+// Under error control: repeats a step at whose end a change of the mesh is due, so that it ends where the
+// change falls due. Otherwise its time, and all later changes, would depend on the steps.
 void land_on_change(Run& run, const StepTaken& taken) {
   const auto due = [&](const State& state) {
     return next_plan(*run.at.system, state, run.options.length_control).change != MeshChange::none;
@@ -125,7 +125,7 @@ void land_on_change(Run& run, const StepTaken& taken) {
   if (after < shortest || after > 1 - shortest) return;
   Integrator& integrator = *run.integrator;
   const IntegratorHistory whole = integrator.history();
-  // A repeated step misses what was interpolated by a little.
+  // A repeated step differs a little from the interpolation.
   for (double miss = 1e-8; miss < 1e-2; miss *= 10) {
     const double length = (after + miss) * taken.length;
     const StepReport repeated = integrator.repeat(taken.before, taken.history, length);
@@ -138,14 +138,14 @@ void land_on_change(Run& run, const StepTaken& taken) {
   integrator.restore(run.at.state, whole);
 }
 
-// What a step has been landed at.
+// The places and events that a step has landed at.
 struct Landing {
-  std::optional<Crossing> crossing, ending;  // of a place; of an end of a beam
+  std::optional<Crossing> crossing, ending;  // at a place; at an end of a beam
   std::optional<StepEvent> event;
 };
 
-// Repeats a step so that it ends where `find`, of its end, finds something: the first of all that it has
-// passed, of which the first found need not come first.
+// Repeats a step so that it ends at the earliest crossing that `find` finds for its end. The first one found
+// need not be the earliest.
 template <class Find>
 std::optional<Crossing> land_at_first(Run& run, const State& before, const IntegratorHistory& history,
                                       const Find& find) {
@@ -169,7 +169,7 @@ Landing land(Run& run, const State& before, const IntegratorHistory& history, St
   landing.event = land_on_event(run, before, history, start);
   if (landing.crossing && !landing.event) {
     State over = carried_over(*at.system, at.state, step, *landing.crossing);
-    // What happens at the place itself comes before.
+    // An event at the place itself comes first.
     landing.event = first_event(*at.system, before, over, start);
     if (!landing.event) at.state = std::move(over);
   }
@@ -181,7 +181,8 @@ Landing land(Run& run, const State& before, const IntegratorHistory& history, St
   return landing;
 }
 
-// Of what a step has been landed at, for states of neighbouring models too; empty where it has not.
+// Distance from the event or place that a step has landed at, for states of neighbouring models too; empty
+// without a landing.
 std::function<double(const BeamSystem&, const State&)> distance_to(const BeamModel& model,
                                                                    const Landing& landing,
                                                                    const State& before) {
@@ -197,14 +198,14 @@ std::function<double(const BeamSystem&, const State&)> distance_to(const BeamMod
   return {};
 }
 
-// Those of the step that has led to the present state, or to an instant before it.
+// States within the step that led to the present state, or to an instant before it.
 std::span<const State> states_within(const Run& run, double length) {
   constexpr double instant = 1e-5;  // of the step
   const bool led_here = std::abs(run.at.state.t - run.integrator->state().t) <= instant * length;
   return led_here ? run.integrator->within() : std::span<const State>();
 }
 
-// `length_before`: of the step that led to its start.
+// Enters a step into the energy account. `length_before`: length of the step before it.
 void book(Run& run, const StepPath& path, bool first, double length_before) {
   const BeamSystem& system = *run.at.system;
   if (run.options.step || !has_prescribed_motions(*run.model) || !path.within.empty())
@@ -214,14 +215,14 @@ void book(Run& run, const StepPath& path, bool first, double length_before) {
   run.account.add_step(system, path, first, {before, after});
 }
 
-// Whether a step was shortened without having failed: by the places of nodes that move (step_limit).
+// Records a step that was shortened without having failed, by the limit on moving nodes (step_limit).
 void note_cut(Run& run, double asked, const StepReport& taken) {
   if (!run.options.step || taken.rejected > 0 || taken.step > asked * (1 - 1e-9)) return;
   ++run.report.cut_steps;
   run.report.shortest_cut = std::min(run.report.shortest_cut, taken.step);
 }
 
-// What follows from what a step has been landed at.
+// Applies the consequences of a landing.
 bool pass(Run& run, const Landing& landing, const State& before) {
   if (landing.ending && !end_sliding(run, *landing.ending)) return false;
   note_friction(run, before, landing.event);
@@ -251,7 +252,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   const double step_before = std::exchange(run.last_step, taken.step);
   note_cut(run, asked, taken);
   State before = run.integrator->take_before();
-  before.t = at.state.t;  // which may have been put on a time of output
+  before.t = at.state.t;  // may have been put on an output time
   at.state = run.integrator->state();
   const bool first = std::exchange(run.restarted, false);
   const double end = at.state.t;
@@ -259,7 +260,8 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   if (landing.event && at.state.t == before.t) {
     if (!pass_event(run, *landing.event, arrival_at_once(run))) return false;
     if (++run.events_at_once > most_at_once(*run.model)) return run.goes_on(endless(run, *landing.event));
-    // What is pressed to its stop at once stays there for this step, or it would leave and come for ever.
+    // A body pressed to its stop at once stays there for this step; else it would leave and come back for
+    // ever.
     return !rests_by(run, *landing.event) || take_step(run, step, rest, true);
   }
   run.events_at_once = 0;

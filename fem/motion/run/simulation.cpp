@@ -42,7 +42,7 @@ bool take_first_velocities(MeshedState& at) {
 
 }  // namespace
 
-// The story of a run: its rest or its motion, and what it hands out on the way.
+// The course of a run: its rest or its motion, and its output on the way.
 struct Simulation::Implementation {
  public:
   Implementation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,
@@ -85,8 +85,8 @@ struct Simulation::Implementation {
     return report;
   }
 
-  // Right after a restart with the accelerations and multipliers of the moment, of which an integrator may
-  // have taken means over its first step.
+  // A snapshot of the present state. Right after a restart it has the accelerations and multipliers of the
+  // moment, as an integrator may average them over its first step.
   Snapshot present(const TakeElements& take = nullptr) const {
     if (run_.restarted) {
       State state = run_.at.state;
@@ -157,7 +157,7 @@ struct Simulation::Implementation {
       begin_moving();
   }
 
-  // At the next of the output times.
+  // Finds the rest at the next output time.
   void rest() {
     const auto& asked = run_.observer.interrupted;
     const std::vector<double>& times = run_.options.output_times;
@@ -172,7 +172,7 @@ struct Simulation::Implementation {
     if (found && phase_ == Phase::ended) see_what_is_loose();
   }
 
-  // Whether the last rest is one of many.
+  // Finds out whether the last rest is one of many.
   void see_what_is_loose() {
     try {
       run_.report.loose = find_loose_part(run_.at, run_.observer.interrupted);
@@ -181,8 +181,8 @@ struct Simulation::Implementation {
     }
   }
 
-  // At the first of the output times, with the lengths of connectors that the whole loads ask for: the same
-  // structure by whatever steps they come.
+  // Starts statics at the first output time, with the free lengths of connectors that the whole loads give:
+  // the structure must not depend on the load steps.
   bool start_rest() {
     const std::vector<double>& times = run_.options.output_times;
     const double first = times.empty() ? run_.at.state.t : times.front();
@@ -196,7 +196,7 @@ struct Simulation::Implementation {
     return find_lengths();
   }
 
-  // The free lengths of connectors that the equilibrium gives; whether the run goes on.
+  // Finds the free lengths of connectors that the equilibrium gives; returns whether the run goes on.
   bool find_lengths() {
     if (!asks_for_lengths(*run_.model)) return true;
     const bool found = book(find_free_lengths(run_.at, run_.observer.interrupted));
@@ -204,7 +204,7 @@ struct Simulation::Implementation {
     return found;
   }
 
-  // Takes over what a search for rest came to; whether the run goes on.
+  // Adds the report of a search for rest; returns whether the run goes on.
   bool book(RestReport rest) {
     run_.report.newton_iterations += rest.newton_iterations;
     if (run_.options.statics) run_.report.steps += rest.load_steps;
@@ -232,14 +232,14 @@ struct Simulation::Implementation {
     return pass_first_impacts(run_) && run_.restart();
   }
 
-  // Whether it has begun.
+  // Starts the account and the mesh of a motion; returns whether it has begun.
   bool begin_motion() {
     run_.account.begin(*run_.at.system, run_.at.state);
     settle_mesh(run_);
     return run_.report.status == SimulationStatus::done;
   }
 
-  // With the first output times behind it.
+  // Begins the motion by writing the first output times.
   void begin_moving() {
     phase_ = Phase::motion;
     write_due();
@@ -254,7 +254,7 @@ struct Simulation::Implementation {
     seconds_ = run_.report.motion_seconds + run_.report.length_control_seconds;
   }
 
-  // That of the checkpoint where output times are those of its run.
+  // The next output time. The checkpoint knows it, if output times are those of its run.
   std::size_t next_output_after(const Checkpoint& point) const {
     const auto& times = run_.options.output_times;
     const double t = point.state.t, near = 1e-12 * std::abs(t);
@@ -266,7 +266,7 @@ struct Simulation::Implementation {
                                            times.begin());
   }
 
-  // A step towards the next output time, and what is to be told of it.
+  // Takes a step towards the next output time, and reports it.
   void move() {
     if (run_.observer.interrupted && run_.observer.interrupted()) {
       hand_over();
@@ -276,16 +276,16 @@ struct Simulation::Implementation {
     double& time = run_.at.state.t;
     const auto& times = run_.options.output_times;
     const double output = next_output_ < times.size() ? times[next_output_] : run_.options.end_time;
-    // A kink that an output time cannot be told from comes first: it would be passed by.
+    // A kink very close to an output time comes first, or it would be passed by.
     const double kink = next_kink(), target = kink <= output + run_.resolution() ? kink : output;
     const double rest = target - time;
     if (!take_step(run_, rest / std::max(1.0, std::ceil(rest / run_.step - 1e-9)), rest)) return end_early();
     if (std::abs(time - target) < run_.resolution()) time = target;
     if (time == kink && !(pass_kink(run_) && release_bodies(run_))) return end_early();
-    if (is_over()) run_.integrator->rest();  // no step will want its matrix
+    if (is_over()) run_.integrator->rest();  // no later step needs its matrix
     write_due();
-    constexpr long watch = 16;  // steps: an instability makes all out of nothing in some more
-    // Between what is written bodies of little mass on beams at rest make some for a moment.
+    constexpr long watch = 16;  // steps; an instability makes energy out of nothing within some more of them
+    // Between outputs, light bodies on beams at rest make a little energy for a moment.
     if (time == last_written_ && !run_.goes_on(energy_from_nowhere(0))) return end_early();
     if (run_.report.steps % watch == 0 && !run_.goes_on(energy_from_nowhere(slight_bending(*run_.model))))
       return end_early();
@@ -295,7 +295,7 @@ struct Simulation::Implementation {
     end_at_end_time();
   }
 
-  // A jump of tables or of a force that no step can lie in: what comes begins after it.
+  // Jumps over a jump of tables or of a force, which no step can resolve: the motion goes on after it.
   bool pass_jump() {
     const double after = end_of_jump(kinks_, run_.at.state.t, run_.resolution());
     if (after == run_.at.state.t || is_over()) return true;
@@ -336,7 +336,8 @@ struct Simulation::Implementation {
     if (run_.report.failure) look_behind(*run_.report.failure);
   }
 
-  // Steps that fail, and energy from nowhere, may have one reason.
+  // Looks for the reason behind a failed step or energy from nowhere: both may have one, a step that is too
+  // long.
   void look_behind(Failure& failure) {
     if (failure.kind != Failure::Kind::step && failure.kind != Failure::Kind::energy) return;
     if (const auto created = energy_from_nowhere(0)) failure = *created;
@@ -377,13 +378,13 @@ struct Simulation::Implementation {
 
   Run run_;
   const std::vector<ProbePlace> probes_;
-  std::vector<double> kinks_;  // of tables: steps end there
+  std::vector<double> kinks_;  // kinks of tables, where steps end
   Phase phase_ = Phase::start;
   std::size_t next_output_ = 0;
   long iterations_written_ = 0;
   double last_written_ = -1;               // time of the last snapshot
-  double seconds_ = 0;                     // of the calls so far, and of the run that was interrupted
-  std::optional<Clock::time_point> call_;  // when the present one began
+  double seconds_ = 0;                     // of the calls so far, and of the interrupted run
+  std::optional<Clock::time_point> call_;  // start of the present call
 };
 
 Simulation::Simulation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,

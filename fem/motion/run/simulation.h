@@ -9,19 +9,20 @@
 
 namespace nurbeam {
 
-/// A run that is taken step by step: from the drawn shape of a model, or from equilibrium, to its end. All is
+/// A run that is taken step by step, from the drawn shape of a model or from equilibrium to its end. All is
 /// in the model's own coordinates.
 class Simulation {
  public:
-  /// With `from`, which must belong to the same model and options, a motion goes on from there.
+  /// With `from`, which must belong to the same model and options, a motion goes on from that checkpoint.
   Simulation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,
              SimulationOptions options, SimulationObserver observer = {}, const Checkpoint* from = nullptr);
   Simulation(Simulation&&) noexcept;
   ~Simulation();
 
-  /// Takes what is next: the state at time 0; then a step, at most to the next output time, with what follows
-  /// from it, or the next state at rest. Returns whether more is to come. What a force or the observer throws
-  /// arrives unchanged; a motion can then go on from the last step, while a search for rest ends the run.
+  /// Takes the next part of the run: the state at time 0; then a step with its consequences, at most to the
+  /// next output time, or the next state at rest. Returns whether more is to come. Exceptions of a force or
+  /// the observer arrive unchanged. A motion can then go on from the last step, while a search for rest ends
+  /// the run.
   bool advance();
   /// Changes forces, in place and in their number, between two steps. Returns whether the motion goes on.
   bool change_forces(const std::function<void(std::vector<Force>&)>& change);
@@ -29,9 +30,10 @@ class Simulation {
   const BeamSystem& system() const;
   const State& state() const;
   SimulationReport report() const;
-  /// The state with what is known of the steps since the last snapshot.
+  /// A snapshot of the state, with the records of steps since the last snapshot.
   Snapshot present() const;
-  /// Of the present moment. Throws std::invalid_argument before the first call of advance(), and in statics.
+  /// A checkpoint of the present moment. Throws std::invalid_argument before the first call of advance(), and
+  /// in statics.
   Checkpoint checkpoint() const;
 
  private:
@@ -40,15 +42,18 @@ class Simulation {
 };
 
 /// Runs a model from its drawn shape, or from equilibrium, to its end: integration, length control, bodies
-/// that leave or stop at a beam's end. A static analysis has a snapshot at rest under the loads of each
-/// output time, followed from one to the next; where there is none, of time 0. Sliding bodies come to rest.
-/// With `from`, which must belong to the same model and options, a motion goes on from there: with
+/// that leave or stop at a beam's end.
+///
+/// A static analysis has a snapshot at rest under the loads of each output time, followed from one to the
+/// next; without output times, of time 0. Sliding bodies come to rest.
+///
+/// With `from`, which must belong to the same model and options, a motion goes on from that checkpoint: with
 /// generalized-alpha, Radau and the explicit methods bit by bit as if it had never been interrupted; IDA
 /// starts afresh with a short step. All is in the model's own coordinates.
 SimulationReport simulate(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer,
                           const Checkpoint* from = nullptr);
-/// The same of a copy of the model.
+/// Runs a copy of the model.
 SimulationReport simulate(const BeamModel& model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer,
                           const Checkpoint* from = nullptr);

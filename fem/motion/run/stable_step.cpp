@@ -17,14 +17,14 @@ double longest_explicit_step(const BeamSystem& system, const State& state) {
   const std::optional<Eigenpairs> fastest = largest_eigenpairs(K, tangent({.mass = 1}), 1);
   constexpr double never = std::numeric_limits<double>::infinity();
   if (!fastest || fastest->values.size() == 0 || !(fastest->values[0] > 0)) return never;
-  // Of lambda^2 + d lambda + omega^2 = 0 the root of the larger magnitude; x'M x = 1.
+  // The root of larger magnitude of lambda^2 + d lambda + omega^2 = 0; x'M x = 1.
   const double omega = std::sqrt(fastest->values[0]);
   const Eigen::VectorXd x = fastest->vectors.col(0);
   const Eigen::SparseMatrix<double> D = tangent({.damping = 1}).topLeftCorner(n, n);
   const double half = std::max(0.0, x.dot(D * x) / 2);
   const double magnitude = half > omega ? half + std::sqrt(half * half - omega * omega) : omega;
   constexpr double reach =
-      2.78;  // of the region of stability: 2.785 along the real axis, 2.828 along the other
+      2.78;  // reach of the region of stability: 2.785 along the real axis, 2.828 along the imaginary one
   return reach / magnitude;
 }
 
