@@ -12,7 +12,7 @@ namespace nurbeam {
 
 namespace {
 
-// The unknowns that each is coupled with: itself too, and the rows of its column alone.
+// The unknowns with which each unknown is coupled: itself too, by the rows of its column alone.
 class Neighbours {
  public:
   Neighbours(const SparseView& pattern, const std::vector<int>& left_out)
@@ -25,7 +25,7 @@ class Neighbours {
   int count(int i) const { return pattern_.outerIndexPtr()[i + 1] - pattern_.outerIndexPtr()[i]; }
   const int* begin(int i) const { return pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[i]; }
   const int* end(int i) const { return begin(i) + count(i); }
-  /// Whether it is coupled with what is left out.
+  /// Whether the unknown is coupled with those left out.
   bool is_coupled(int i) const { return coupled_[i]; }
 
  private:
@@ -33,14 +33,14 @@ class Neighbours {
   std::vector<bool> coupled_;
 };
 
-// Which unknowns have been seen, and in which walk last; those that are left out are in none.
+// The last walk in which each unknown was seen; unknowns left out are in none.
 struct Walks {
   static constexpr int never = std::numeric_limits<int>::max();
   std::vector<int> last;
   int number = 0;
 };
 
-// Appends the component of `start`, by levels, in each those first that are coupled with what is left out,
+// Appends the component of `start`, by levels. In each level unknowns coupled with those left out come first,
 // then those with the fewest neighbours. Returns the number of levels.
 int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std::vector<int>& order) {
   const auto rank = [&](int i) { return neighbours.is_coupled(i) ? 0 : neighbours.count(i); };
@@ -61,7 +61,7 @@ int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std:
     const std::size_t first_new = order.size();
     for (const int* other = neighbours.begin(order[next]); other != neighbours.end(order[next]); ++other)
       if (walks.last[*other] < walks.number) append(*other);
-    // They are few.
+    // Insertion sort, as a level has few unknowns.
     for (std::size_t i = first_new; i < order.size(); ++i)
       std::rotate(std::upper_bound(order.begin() + static_cast<std::ptrdiff_t>(first_new),
                                    order.begin() + static_cast<std::ptrdiff_t>(i), order[i], fewer),
@@ -71,8 +71,9 @@ int append_by_levels(const Neighbours& neighbours, int start, Walks& walks, std:
   return levels;
 }
 
-// The component of `start`, by levels from an unknown at one of its ends: from there they are the most that
-// are easily found. From one that is coupled with what is left out, where from it they are nearly as many.
+// The component of `start`, by levels from an unknown at one of its ends, where the number of levels is the
+// largest that is easily found. The start is an unknown coupled with those left out, if the number is nearly
+// as large from there.
 std::vector<int> by_levels_from_end(const Neighbours& neighbours, int start, Walks& walks) {
   constexpr double nearly = 0.75;
   std::vector<int> order;
@@ -124,7 +125,7 @@ BandOrder BandOrder::of(const SparseView& pattern, std::vector<int> unknowns) {
 
 BandOrder BandOrder::aligned(int block) const {
   const int held = static_cast<int>(unknown.size());
-  std::vector<int> moved(unknown.size());  // places
+  std::vector<int> moved(unknown.size());  // new places
   int next = 0;
   for (int first = 0, last = 0; first < held; first = last) {
     while (last < held && ends[last] == ends[first]) ++last;
@@ -151,7 +152,7 @@ BandOrder BandOrder::aligned(int block) const {
   return order;
 }
 
-// All that follows from `unknown`.
+// Sets all members that follow from `unknown`.
 void BandOrder::place_unknowns(const SparseView& pattern) {
   place.assign(static_cast<std::size_t>(pattern.cols()), -1);
   const int held = static_cast<int>(unknown.size());
@@ -159,7 +160,7 @@ void BandOrder::place_unknowns(const SparseView& pattern) {
   ends.resize(unknown.size());
   std::iota(ends.begin(), ends.end(), 1);
   below.assign(unknown.size(), 0);
-  // Columns that follow one another with the same rows, as those of a node, are gone over once.
+  // Columns that follow one another with the same rows, as those of a node, are visited once.
   for (int first = 0, end = 0; first < held; first = end) {
     for (end = first + 1; end < held && have_same_rows(pattern, unknown[first], unknown[end]);) ++end;
     int highest = first, lowest = first > 0 ? below[first - 1] : 0;

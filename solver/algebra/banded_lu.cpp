@@ -11,9 +11,9 @@ namespace nurbeam {
 
 using namespace fours;
 
-// The rows that are being eliminated, each with what its columns take, and the multipliers of a block. They
-// are filled column by column, as far as the next elimination needs; where there is no room for more, those
-// that are left move to its beginning.
+// A window on the rows that are being eliminated, each with room for its columns, and the multipliers of a
+// block. Rows are filled column by column, as far as the next elimination needs. When the room is used up,
+// the rows still needed move to its beginning.
 class BandedLu::Window {
  public:
   Window(BandedLu& of, const SparseView& matrix)
@@ -38,22 +38,22 @@ class BandedLu::Window {
   }
 
   NURBEAM_WITHIN double* diagonal(int row) { return rows_ + (row - begin_) * width_ + before_; }
-  /// From a place in a row to the same column of the next one.
+  /// Distance from a place in a row to the same column of the next row.
   NURBEAM_WITHIN std::ptrdiff_t to_next_row() const { return width_ - 1; }
   /// One past the last column of a row.
   NURBEAM_WITHIN int& end(int row) { return ends_[row - begin_]; }
-  /// Of column c of the present block, from the block's first row on.
+  /// Multipliers of column c of the present block, from the block's first row on.
   NURBEAM_WITHIN double* multipliers(int c) { return multipliers_ + c * height_; }
 
-  /// Whether no unknown has that place.
+  /// Whether a place has no unknown.
   NURBEAM_WITHIN bool is_free(int place) const { return place >= size_ || order_.unknown[place] < 0; }
 
-  /// Makes room for a block: nothing before its first row is asked for any more.
+  /// Makes room for a block; rows before its first one are not needed any more.
   NURBEAM_WITHIN void begin_block(int k) {
     std::fill_n(multipliers_, block * height_, 0.0);
     first_ = k;
   }
-  /// Makes the rows up to that one complete.
+  /// Completes the rows up to `row`.
   NURBEAM_WITHIN void reach(int row) {
     for (; complete_ <= row && complete_ < size_; ++complete_) {
       while (filled_ < order_.ends[complete_]) fill_column(filled_++);
@@ -83,13 +83,13 @@ class BandedLu::Window {
     const int first = matrix_.outerIndexPtr()[order_.unknown[column]],
               end = matrix_.outerIndexPtr()[order_.unknown[column] + 1];
     open(order_.below[column]);
-    double* entries = diagonal(0) + column;  // of that column, by the rows' distances
+    double* entries = diagonal(0) + column;  // entries of the column, by the rows' distances
     for (int k = first; k < end; ++k)
       if (const int row = order_.place[matrix_.innerIndexPtr()[k]]; row >= 0)
         entries[row * to_next_row()] = matrix_.valuePtr()[k];
   }
 
-  // So that its largest number becomes one; before and behind its numbers are zeros.
+  // Scales a row so that its largest number becomes one; the numbers before and behind it are zeros.
   NURBEAM_WITHIN void scale(int row) {
     double* entries = diagonal(row) - before_;
     const int count = before_ + order_.ends[row] - row;
@@ -107,25 +107,25 @@ class BandedLu::Window {
   const SparseView& matrix_;
   std::vector<double>& scale_;
   int size_, before_, width_, height_, capacity_;
-  int begin_ = 0, first_ = 0;                   // row at the beginning, and first one that is needed
-  int opened_ = 0, filled_ = 0, complete_ = 0;  // rows, columns, rows
+  int begin_ = 0, first_ = 0;                   // row at the beginning, and first row that is needed
+  int opened_ = 0, filled_ = 0, complete_ = 0;  // number of rows, columns, rows
   double *rows_, *multipliers_;
   int* ends_;
 };
 
 namespace {
 
-// Copies so many numbers, which are whole blocks.
+// Copies `count` numbers, which are whole blocks.
 NURBEAM_WITHIN void copy(const double* from, int count, double* to) {
   for (int j = 0; j < count; j += block) four(to + j) = four(from + j);
 }
 
-// Numbers of four rows of U, or columns of L, from place k up to an end, that lie beyond the next block.
+// Count of numbers of four rows of U, or columns of L, from place k to `end`, that lie beyond the next block.
 int length_beyond(int k, int end) { return std::max(0, (end - k - block - 1) / block * block); }
 
 }  // namespace
 
-// All is done by blocks of four; what they reach beyond that is zero.
+// Work goes by blocks of four; numbers in their reach beyond the end are zero.
 void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   order_ = std::move(order);
   window_.reset();
@@ -137,7 +137,7 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
   pivots_.resize(padded);
   blocks_.resize(padded / block);
   room_ = padded + static_cast<std::size_t>(2 * half_bandwidth_ + 2 * block);
-  // As long as they are without exchanges, and an eighth for these.
+  // Room for the factors without exchanges, and an eighth more for exchanges.
   std::size_t upper = 0, lower = 0;
   for (int k = 0, row = 0, longest = 0; k < padded_; k += block) {
     for (; row < std::min(k + block, n); ++row) longest = std::max(longest, order_->ends[row]);
@@ -150,8 +150,8 @@ void BandedLu::take(std::shared_ptr<const BandOrder> order) {
 
 namespace {
 
-// The row, down to `last`, that takes the place: the one that is there if it is not much less than the
-// largest, since every exchange widens the band.
+// The pivot row, down to `last`: the present row unless it is much smaller than the largest, as every
+// exchange widens the band.
 template <class Window>
 NURBEAM_WITHIN int pivot_of(Window& window, int column, int last) {
   constexpr double enough = 0.1;
@@ -175,8 +175,8 @@ NURBEAM_WITHIN void exchange(Window& window, int k, int p) {
   std::swap(window.end(k), window.end(p));
 }
 
-// Takes the unknown of a column out of the rows below, down to `last`, within the columns of its block: where
-// it was stands what it is multiplied with in the others. Returns the last row that changes.
+// Eliminates the unknown of a column from the rows below, down to `last`, within the columns of its block.
+// Multipliers take the place of the unknown's entries. Returns the last row that changes.
 template <class Window>
 NURBEAM_WITHIN int take_out_of_block(Window& window, int k, int last, double inverse) {
   const int column = k % block, begin = k - column, end = window.end(k);
@@ -196,8 +196,8 @@ NURBEAM_WITHIN int take_out_of_block(Window& window, int k, int last, double inv
   return reach;
 }
 
-// Takes the unknowns of a block out of the columns beyond it: of its own rows, then of those below, down to
-// `last`.
+// Eliminates the unknowns of a block from the columns beyond it: in its own rows, then in those below, down
+// to `last`.
 template <class Window>
 NURBEAM_WITHIN void take_out_beyond(Window& window, int k, int last) {
   std::array<double*, block> u;
@@ -227,7 +227,7 @@ NURBEAM_WITHIN void take_out_beyond(Window& window, int k, int last) {
 
 }  // namespace
 
-// Room for so many more numbers behind `end`, which moves.
+// Makes room for `count` more numbers behind `end`, which moves on.
 std::ptrdiff_t BandedLu::append(int count, std::size_t& end, std::vector<double>& numbers) {
   const std::size_t begin = end;
   end += static_cast<std::size_t>(count);
@@ -235,7 +235,7 @@ std::ptrdiff_t BandedLu::append(int count, std::size_t& end, std::vector<double>
   return static_cast<std::ptrdiff_t>(begin);
 }
 
-// Puts the block's rows of U and columns of L away, but for what its inverses are made of.
+// Stores the block's rows of U and columns of L, without those that go into its inverses.
 NURBEAM_WITHIN void BandedLu::keep_block(int k, Window& window) {
   Block& own = blocks_[k / block];
   int end = 0;
@@ -251,9 +251,9 @@ NURBEAM_WITHIN void BandedLu::keep_block(int k, Window& window) {
   }
 }
 
-// D^-1 and D^-1 E.
+// Finds D^-1 and D^-1 E.
 NURBEAM_WITHIN void BandedLu::invert_upper(int k, Window& window) {
-  std::array<const double*, block> u;  // from column k on
+  std::array<const double*, block> u;  // rows of U from column k on
   for (int r = 0; r < block; ++r) u[r] = window.diagonal(k + r) - r;
   Square &inverse = blocks_[k / block].inverses, &next = blocks_[k / block].from_next;
   for (int j = 0; j < block; ++j) {
@@ -272,7 +272,7 @@ NURBEAM_WITHIN void BandedLu::invert_upper(int k, Window& window) {
   }
 }
 
-// C^-1 and C^-1 B of a block that has its B; the next one gets its own.
+// Finds C^-1 and C^-1 B of a block whose B is known, and gives the next block its B.
 NURBEAM_WITHIN void BandedLu::invert_lower(int k, Window& window) {
   Block& own = blocks_[k / block];
   own.exchanged = false;
@@ -300,7 +300,7 @@ NURBEAM_FOR_EVERY_PROCESSOR double BandedLu::eliminate_rows(const SparseView& ma
   for (int begin = 0; begin < padded_; begin += block) {
     window.begin_block(begin);
     int& reach = blocks_[begin / block].reach = 0;
-    int brought = 0;  // the last row that one with multipliers may have gone to
+    int brought = 0;  // last row to which a row with multipliers may have gone
     for (int k = begin; k < begin + block; ++k) {
       const int last = k < n ? order_->below[k] : k;
       window.reach(last);

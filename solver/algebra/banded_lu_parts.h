@@ -4,7 +4,7 @@
 #include "solver/algebra/banded_lu.h"
 #include "solver/algebra/every_processor.h"
 
-/// What the factors of BandedLu and the solutions with them share, for their own source files.
+/// Parts shared by the factorisation of BandedLu and the solutions with it, for their own source files.
 namespace nurbeam {
 
 /// Four numbers that follow one another, and squares of them.
@@ -21,7 +21,7 @@ NURBEAM_WITHIN Four product(const Square& columns, const Four& x) {
          (four(columns[2].data()) * x[2] + four(columns[3].data()) * x[3]);
 }
 
-// The same with what stands on the diagonal and above it alone.
+// The product with the upper triangle of the square alone, its diagonal included.
 using Choice = long long __attribute__((vector_size(4 * sizeof(long long))));
 NURBEAM_WITHIN Four upper_product(const Square& columns, const Four& x) {
   const auto above = [&](int c, const Choice& chosen) { return chosen ? four(columns[c].data()) : Four{}; };
@@ -29,7 +29,7 @@ NURBEAM_WITHIN Four upper_product(const Square& columns, const Four& x) {
          (above(2, Choice{-1, -1, -1, 0}) * x[2] + four(columns[3].data()) * x[3]);
 }
 
-// The same with what stands below the diagonal, and ones on it.
+// The product with the lower triangle of the square, with ones on its diagonal.
 NURBEAM_WITHIN Four lower_product(const Square& columns, const Four& x) {
   const auto below = [&](int c, const Choice& chosen, const Four& unit) {
     return chosen ? four(columns[c].data()) : unit;
@@ -41,7 +41,7 @@ NURBEAM_WITHIN Four lower_product(const Square& columns, const Four& x) {
 
 }  // namespace fours
 
-// The rows of U of a block, from beyond the next one on.
+// The rows of U of a block, from beyond the next block on.
 NURBEAM_WITHIN std::array<const double*, BandedLu::block> BandedLu::upper_beyond(int k) const {
   const Block& own = blocks_[k / block];
   std::array<const double*, block> u;
@@ -49,7 +49,7 @@ NURBEAM_WITHIN std::array<const double*, BandedLu::block> BandedLu::upper_beyond
   return u;
 }
 
-// Of the rows beyond the next block, of each of the columns of a block.
+// The multipliers of a block, column by column, in the rows beyond the next block.
 NURBEAM_WITHIN std::array<const double*, BandedLu::block> BandedLu::multipliers_beyond(int k) const {
   const Block& own = blocks_[k / block];
   std::array<const double*, block> m;

@@ -10,12 +10,12 @@ using namespace fours;
 
 namespace {
 
-// The sum of the four.
+// The sum of the four numbers.
 NURBEAM_WITHIN double sum_of(const Four& a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
 }  // namespace
 
-// Takes a block of unknowns out of the right-hand sides beyond the next block.
+// Subtracts a block of unknowns from the right-hand sides beyond the next block.
 NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, double* y) const {
   const std::array<const double*, block> m = multipliers_beyond(k);
   for (int i = 0; k + 2 * block + i <= blocks_[k / block].reach; i += block)
@@ -23,8 +23,9 @@ NURBEAM_WITHIN void BandedLu::take_out(int k, const Four& x, double* y) const {
         four(m[0] + i) * x[0] + four(m[1] + i) * x[1] + four(m[2] + i) * x[2] + four(m[3] + i) * x[3];
 }
 
-// Finds a block of unknowns that are exchanged with others, and takes them out of the right-hand sides below
-// them: at(place) is what stands there, and take_off(place, factor, other) takes off what stands at another.
+// Finds the unknowns of a block with exchanged rows, and subtracts them from the right-hand sides below.
+// exchange(place, other) exchanges two places; take_off(place, factor, other) subtracts factor times the
+// value at another place.
 template <class Exchange, class TakeOff>
 NURBEAM_WITHIN void BandedLu::eliminate_exchanged(int k, const Exchange& exchange,
                                                   const TakeOff& take_off) const {
@@ -41,7 +42,8 @@ NURBEAM_WITHIN void BandedLu::eliminate_exchanged(int k, const Exchange& exchang
   }
 }
 
-// Finds the unknowns block by block, each taken out of those after it: of the next one when its turn comes.
+// Finds the unknowns block by block, and subtracts each block from the right-hand sides after it; from the
+// next block when its turn comes.
 class BandedLu::Elimination {
  public:
   NURBEAM_WITHIN Elimination(const BandedLu& lu, double* all) : lu_(lu), all_(all) {}
@@ -63,7 +65,7 @@ class BandedLu::Elimination {
     }
     is_waiting_ = !own.exchanged;
   }
-  // Goes past a block of zeros.
+  // Skips a block of zeros.
   NURBEAM_WITHIN void pass() { is_waiting_ = false; }
   NURBEAM_WITHIN bool is_waiting() const { return is_waiting_; }
 
@@ -71,7 +73,7 @@ class BandedLu::Elimination {
   const BandedLu& lu_;
   double* all_;
   Four before_ = {};
-  bool is_waiting_ = false;  // the block before, to be taken out of the next one
+  bool is_waiting_ = false;  // whether the block before is still to be subtracted from the next one
 };
 
 void BandedLu::load(const Eigen::VectorXd& rhs, Places& y) const {
@@ -90,7 +92,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& all) const {
 
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last) const {
   Elimination elimination(*this, y.data());
-  // An exchange brings a row up by no more than the band.
+  // An exchange moves a row up by no more than the bandwidth.
   for (int k = std::max(0, first - half_bandwidth_) / block * block; k <= last; k += block) {
     const auto is_zero = [&](int i) { return y[i] == 0 && y[pivots_[i]] == 0; };
     if (!elimination.is_waiting() && is_zero(k) && is_zero(k + 1) && is_zero(k + 2) && is_zero(k + 3))
@@ -102,7 +104,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::lower(Places& y, int first, int& last
   }
 }
 
-// Block by block from those after it, of which the next one comes in last: it is waited for.
+// Each block is found from those after it. The next block enters last, as its result has to be waited for.
 NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper(Places& all) const {
   Four after = {};
   for (int k = padded_ - block; k >= 0; k -= block) {
@@ -138,7 +140,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void BandedLu::upper_transposed(Places& all, int fir
   }
 }
 
-// y <- (P L)^-1 y of so many times four right-hand sides, side by side at each place.
+// y <- (P L)^-1 y for `times` times four right-hand sides, side by side at each place.
 template <int times>
 NURBEAM_WITHIN void BandedLu::lower_beside(double* y) const {
   const auto at = [&](int place) { return reinterpret_cast<Four*>(y) + place * times; };
@@ -148,7 +150,7 @@ NURBEAM_WITHIN void BandedLu::lower_beside(double* y) const {
   bool is_waiting = false;
   for (int k = 0; k < padded_; k += block) {
     const Block& own = blocks_[k / block];
-    // Within the block from below, as its own are asked for.
+    // Rows within the block go from below, as each needs the old values of the rows above it.
     if (!own.exchanged)
       for (int i = block - 1; i > 0; --i)
         for (int l = 0; l < i; ++l) take_off(k + i, -own.inverses[l][i], k + l);
@@ -166,7 +168,7 @@ NURBEAM_WITHIN void BandedLu::lower_beside(double* y) const {
   }
 }
 
-// y <- U^-1 y of these.
+// y <- U^-1 y for `times` times four right-hand sides.
 template <int times>
 NURBEAM_WITHIN void BandedLu::upper_beside(double* y) const {
   const auto at = [&](int place) { return reinterpret_cast<Four*>(y) + place * times; };

@@ -21,7 +21,8 @@ class CloseOrder {
     find_reaches();
   }
 
-  /// Half the bandwidth is at least half the most that one is coupled with; in a chain it is two thirds.
+  /// Whether the band is narrow. Half the bandwidth is at least half the largest number of couplings of one
+  /// unknown; in a chain it is two thirds.
   bool is_narrow() const {
     int width = 0;
     for (int k = 0; k < static_cast<int>(unknowns_.size()); ++k)
@@ -29,7 +30,8 @@ class CloseOrder {
     return 4 * width <= 3 * most_;
   }
 
-  /// Components are apart where nothing before a place reaches it.
+  /// The order with components reversed where that is better. A component ends where no earlier place reaches
+  /// further.
   std::vector<int> turned(const std::vector<int>& left_out) {
     std::vector<bool> is_coupled(static_cast<std::size_t>(size_), false);
     for (const int i : left_out)
@@ -72,8 +74,8 @@ class CloseOrder {
     }
   }
 
-  // The first and the last that each is coupled with, by places. What stays is in order, and so are the rows
-  // of a column.
+  // Finds the first and the last place with which each place is coupled. Unknowns that stay are in order, and
+  // so are the rows of a column.
   void find_reaches() {
     const int held = static_cast<int>(unknowns_.size());
     std::vector<int> place(static_cast<std::size_t>(size_), -1);
@@ -101,7 +103,7 @@ class CloseOrder {
   const int *starts_, *rows_;
   int size_, most_ = 0;
   std::vector<Kind> kinds_;
-  std::vector<std::pair<int, int>> moved_;  // after which, which
+  std::vector<std::pair<int, int>> moved_;  // pairs of an unknown and the one moved behind it
   std::vector<int> unknowns_, first_, last_;
 };
 

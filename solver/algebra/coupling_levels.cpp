@@ -13,7 +13,7 @@ CouplingLevels::CouplingLevels(const SparsePattern& pattern, int coordinates, co
   const auto each_coupled = [&](int unknown, const auto& visit) {
     for (int k = columns[unknown]; k < columns[unknown + 1]; ++k) visit(rows[k]);
   };
-  // Of a constraint whose coordinates are all in the level before: its place is there.
+  // Whether a constraint has all its coordinates in the level before, where its own place is too.
   const auto comes_too_late = [&](int unknown) {
     if (unknown < coordinates) return false;
     bool alone = true;

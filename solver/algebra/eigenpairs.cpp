@@ -20,9 +20,9 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Vectors = Eigen::MatrixXd;
 
-/// With S the constrained inverse of B (y = S x: B y + G'z = x, G y = 0) and B + w G'G = L L', the symmetric
-/// matrix C = L'S A S L has the eigenvalues theta, with z = L'x for x; where S vanishes it is zero. All in
-/// the coordinates in which `kkt` is equilibrated.
+/// The transformed problem. With S the constrained inverse of B (y = S x: B y + G'z = x, G y = 0) and B + w
+/// G'G = L L', the symmetric matrix C = L'S A S L has the eigenvalues theta, with z = L'x for x; where S
+/// vanishes C is zero. The coordinates are those in which `kkt` is equilibrated.
 class Transformed {
  public:
   Transformed(const Matrix& A, const Matrix& kkt)
@@ -30,7 +30,7 @@ class Transformed {
     const Matrix level = scaled(kkt, factor_);
     const Matrix G = level.bottomLeftCorner(level.rows() - n_, n_);
     if (!inverse_.factorise(level)) return;
-    // B may be indefinite where G x is not 0: as much of G'G as it takes.
+    // B may be indefinite where G x is not 0: w grows until G'G outweighs that.
     for (double weight = 1; weight < 1e7 && !regular_; weight *= 100) {
       cholesky_.compute(Matrix(level.topLeftCorner(n_, n_)) + weight * Matrix(G.transpose() * G));
       regular_ = cholesky_.info() == Eigen::Success;
@@ -40,7 +40,7 @@ class Transformed {
   bool regular() const { return regular_; }
   int size() const { return n_; }
   Vector times(const Vector& z) const { return untransformed(inverse(A_ * inverse(transformed(z)))); }
-  /// x of z, in the coordinates that were given.
+  /// x for a vector z, in the original coordinates.
   Vector vector_of(const Vector& z) const { return factor_.head(n_).cwiseProduct(inverse(transformed(z))); }
 
  private:
@@ -65,7 +65,7 @@ class Transformed {
   bool regular_ = false;
 };
 
-/// C less what is found of it, for Spectra.
+/// C without the pairs that were found, for Spectra.
 class Deflated {
  public:
   using Scalar = double;
@@ -91,7 +91,7 @@ class Deflated {
   const std::function<void()>& between_;
 };
 
-/// What one start finds beside `found`: eigenvalues and vectors z.
+/// Eigenvalues and vectors z that one start finds besides `found`.
 std::optional<Eigenpairs> find(const Transformed& C, const Vectors& found, int count,
                                const std::function<void()>& between) {
   Deflated op(C, found, between);
@@ -106,7 +106,7 @@ std::optional<Eigenpairs> find(const Transformed& C, const Vectors& found, int c
   return Eigenpairs{lanczos.eigenvalues(), lanczos.eigenvectors(wanted)};
 }
 
-/// All of a small C, by its columns.
+/// All eigenpairs of a small C, from its columns.
 std::optional<Eigenpairs> all_of(const Transformed& C, const std::function<void()>& between) {
   Vectors columns(C.size(), C.size());
   for (int i = 0; i < C.size(); ++i) {
@@ -118,7 +118,7 @@ std::optional<Eigenpairs> all_of(const Transformed& C, const std::function<void(
   return Eigenpairs{solver.eigenvalues(), solver.eigenvectors()};
 }
 
-/// All that is known and not zero, the largest first.
+/// The nonzero pairs of both sets, the largest first.
 Eigenpairs merged(const Eigenpairs& a, const Eigenpairs& b) {
   Vector values(a.values.size() + b.values.size());
   values << a.values, b.values;
@@ -141,7 +141,7 @@ std::optional<Eigenpairs> largest_eigenpairs(const Matrix& A, const Matrix& kkt,
   const Transformed C(A, kkt);
   if (!C.regular() || C.size() < 2) return std::nullopt;
   Eigenpairs found{Vector(0), Vectors(C.size(), 0)};
-  // Where most are wanted the iteration would look for them among round-off.
+  // If most pairs are wanted, the iteration would search among round-off.
   constexpr int few = 64;
   const bool dense = C.size() <= few || C.size() <= 3 * count;
   if (dense) {
@@ -154,7 +154,7 @@ std::optional<Eigenpairs> largest_eigenpairs(const Matrix& A, const Matrix& kkt,
     const std::optional<Eigenpairs> more = find(C, found.vectors, count, between);
     if (!more) return std::nullopt;
     const auto known = found.values.size();
-    // Where enough are known, only a larger one is of interest.
+    // If enough pairs are known, only a larger eigenvalue matters.
     const double least = known >= count ? (1 + same) * std::abs(found.values[count - 1]) : 0;
     missing = more->values.size() > 0 && std::abs(more->values[0]) > least;
     if (missing) found = merged(found, *more);

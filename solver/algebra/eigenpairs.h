@@ -13,11 +13,12 @@ struct Eigenpairs {
 };
 
 /// The `count` theta of the largest magnitude, fewer where others are zero. A (n x n) is symmetric, `kkt` is
-/// [[B, G'], [G, 0]] with B symmetric and positive definite where G x = 0. By the implicitly restarted
-/// Lanczos method (Spectra) with sparse factors of `kkt` and of B + w G'G. One vector finds one of equal
-/// eigenvalues; so it is started again beside what is found until nothing is missing. Nothing is returned
-/// where `kkt` is singular, B not as it must be, or the iteration does not converge. `between` is called
-/// before every product with A; what it throws arrives unchanged.
+/// [[B, G'], [G, 0]] with B symmetric and positive definite where G x = 0. The method is the implicitly
+/// restarted Lanczos method (Spectra) with sparse factors of `kkt` and of B + w G'G. One start vector finds
+/// one of equal eigenvalues, so that the method is started again beside the found ones until none is missing.
+///
+/// Nothing is returned where `kkt` is singular, B is not as required, or the iteration does not converge.
+/// `between` is called before every product with A; its exceptions arrive unchanged.
 std::optional<Eigenpairs> largest_eigenpairs(
     const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatrix<double>& kkt, int count,
     const std::function<void()>& between = [] {});

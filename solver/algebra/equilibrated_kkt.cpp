@@ -11,15 +11,15 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-// By how much the factors of columns are too large: where a column of a constraint outweighs all others by so
-// much, what it has in B is nothing beside what they have, and round-off, as of the curvature of a straight
-// guide. Others that are round-off of the constraint's own do not count.
+// Excess of the factors of columns. If one column of a constraint outweighs all others by a large ratio, its
+// entries in B are negligible beside theirs, and are round-off, as of the curvature of a straight guide. The
+// factor is then too large by this ratio. Columns that are round-off of the constraint itself do not count.
 Vector excess_of_columns(const Matrix& kkt, int n, const Vector& factor) {
-  constexpr double nothing = 1e-13;    // of a stiffness
-  constexpr double round_off = 1e-14;  // of a constraint
+  constexpr double nothing = 1e-13;    // part of a stiffness
+  constexpr double round_off = 1e-14;  // part of a constraint
   struct Row {
     double first = 0, second = 0;
-    int column = -1;  // of the first
+    int column = -1;  // column of the first one
   };
   std::vector<Row> rows(static_cast<std::size_t>(kkt.rows() - n));
   for (int column = 0; column < n; ++column)

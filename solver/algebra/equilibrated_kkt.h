@@ -13,7 +13,7 @@ class EquilibratedKkt {
   Eigen::Index size() const { return factor_.size(); }
   /// (n + m) Precondition: regular().
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
-  /// The same for many right-hand sides, a column each.
+  /// (n + m) Solutions for many right-hand sides, a column each. Precondition: regular().
   KktSolver::Columns solutions(const KktSolver::Columns& rhs) const;
 
  private:

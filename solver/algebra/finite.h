@@ -3,7 +3,7 @@
 
 namespace nurbeam {
 
-/// Whether all numbers of a vector or matrix are finite: a sum of zeros is zero, and not a number else.
+/// Whether all numbers of a vector or matrix are finite: their sum times zero is zero, or not a number.
 template <class Numbers>
 bool all_finite(const Numbers& numbers) {
   return (numbers.array() * 0.0).sum() == 0;

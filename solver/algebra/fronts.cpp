@@ -11,7 +11,7 @@ namespace nurbeam {
 
 namespace {
 
-// Sets of places, each led by its first one.
+// Disjoint sets of places, each led by one of them.
 class Groups {
  public:
   explicit Groups(int places) : next_(static_cast<std::size_t>(places)) {
@@ -31,7 +31,7 @@ class Groups {
   std::vector<int> next_;
 };
 
-// Which unknowns of each level are eliminated together, from outside in.
+// Groups of unknowns that are eliminated together in each level, from outside in.
 class Grouping {
  public:
   Grouping(const SparsePattern& pattern, const CouplingLevels& levels)
@@ -44,9 +44,9 @@ class Grouping {
     for (int level = levels.count() - 1; level >= 0; --level) unite_level(level);
   }
 
-  /// One of the group of a place in the levels.
+  /// The leader of the group of a place in the levels.
   int leader(int place) { return groups_.leader(place); }
-  /// Of the level before that is coupled with a group, by its leader; -1: none.
+  /// A place of the level before that is coupled with a group, given by its leader; -1: none.
   int before(int leader) const { return before_[leader]; }
 
  private:
@@ -87,7 +87,7 @@ class Grouping {
   const SparsePattern& pattern_;
   const CouplingLevels& levels_;
   Groups groups_;
-  std::vector<int> before_, place_;  // of unknowns, -1: none
+  std::vector<int> before_, place_;  // per unknown, -1: none
 };
 
 template <int N>
@@ -97,8 +97,8 @@ using ConstVector = Eigen::Map<const Eigen::Matrix<double, N, 1>>;
 template <int N>
 using Square = Eigen::Map<Eigen::Matrix<double, N, N, Eigen::RowMajor>>;
 
-// Calls work with the number of unknowns that fronts of strands have in the plane and in space, else with
-// that of any.
+// Calls work with the number of unknowns of a front as a constant, if it is that of strands in the plane or
+// in space, else as Eigen::Dynamic.
 template <class Work>
 auto with_size(const Front& front, const Work& work) {
   if (front.own == 4 && front.before == 4) return work.template operator()<4>();

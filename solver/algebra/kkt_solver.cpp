@@ -16,14 +16,15 @@ namespace nurbeam {
 
 namespace {
 
-// The places of an order where it falls into two that are coupled through what lies between them alone.
+// A cut of an order, from place `end` to place `begin`: the places before and behind it are coupled through
+// it alone.
 struct Cut {
   int end, begin;
 };
 
-// Where the middle of an order is cut most narrowly.
+// The narrowest cut near the middle of an order.
 Cut cut_of(const BandOrder& order) {
-  constexpr double middle = 0.45;  // from there on to as much before the end
+  constexpr double middle = 0.45;  // the search goes from here to as far before the end
   const int size = static_cast<int>(order.unknown.size());
   const int first = static_cast<int>(middle * size);
   int reached = 0;
@@ -37,8 +38,8 @@ Cut cut_of(const BandOrder& order) {
   return best;
 }
 
-// Where a matrix has entries, in rows that follow one another, once for columns that follow one another with
-// the same rows: of a chain in a thirtieth of the room of its indices.
+// The pattern of a matrix as runs of rows, kept once for columns that follow one another with the same rows.
+// For a chain this takes a thirtieth of the room of its indices.
 class PatternInRuns {
  public:
   explicit PatternInRuns(const SparseView& matrix) : size_(matrix.cols()) {
@@ -55,7 +56,7 @@ class PatternInRuns {
       const auto last = first + runs;
       for (int column = 0; column < count; ++column, ++end) {
         if (end[1] - end[0] != entries) return false;
-        // The rows of a column rise: those of a run are there where its first and its last one are.
+        // The rows of a column increase: a run is there if its first and last rows are.
         for (auto run = first; run != last; row += run->count, ++run)
           if (row[0] != run->first || row[run->count - 1] != run->first + run->count - 1) return false;
       }
@@ -93,12 +94,12 @@ class PatternInRuns {
   std::vector<Run> runs_;
 };
 
-// Where a matrix has entries, the part that is eliminated last, with what is cut out between strands, and the
-// orders of these.
+// An analysed pattern: the positions of entries, the part that is eliminated last, with the cut between
+// strands, and the orders of the strands.
 struct AnalysedPattern {
   // An entry of S.
   struct Entry {
-    int value, row, column;  // among the matrix's values; of S
+    int value, row, column;  // index among the matrix's values; place in S
   };
 
   PatternInRuns entries;
@@ -154,8 +155,8 @@ struct AnalysedPattern {
     part.insert(part.end(), start + end, start + begin);
     const std::vector<int> in_part = places_in_part(matrix);
     std::vector<int> rest(start + begin, whole.unknown.end());
-    // What is cut out is coupled with the end of the first strand; with that of the other one too, where this
-    // is turned round, up to where its component ends.
+    // The cut is coupled with the end of the first strand. It is also coupled with the end of the second
+    // strand, once this is reversed up to the end of its component.
     if (begin > end && last.empty()) {
       int component = begin;
       for (int reached = begin; component < reached || component == begin; ++component)
@@ -173,13 +174,13 @@ struct KktSolver::Implementation {
   std::shared_ptr<const AnalysedPattern> pattern;
   std::vector<Strand> strands;
   Eigen::MatrixXd schur;   // S - W V as factorised
-  Eigen::MatrixXd corner;  // the same with what has changed, row-scaled
+  Eigen::MatrixXd corner;  // S - W V with later changes, row-scaled
   Eigen::VectorXd corner_scale;
   Eigen::PartialPivLU<Eigen::MatrixXd> corner_lu;
   Eigen::VectorXd rest, part;
 
   void analyse(const SparseView& matrix, const std::vector<int>& last, bool may_cut) {
-    // Of one mesh several matrices are solved, by as many solvers: the order that was found last is at hand.
+    // Several solvers work on matrices of one mesh: the pattern analysed last is at hand.
     thread_local std::shared_ptr<const AnalysedPattern> found;
     if (!found || !found->is_of(matrix, last) || (found->is_cut && !may_cut))
       found = std::make_shared<AnalysedPattern>(matrix, last, may_cut);
@@ -194,7 +195,7 @@ struct KktSolver::Implementation {
     side_by_side(static_cast<int>(strands.size()), [&](int i) { work(strands[i]); });
   }
 
-  // The factors of all strands and of the corner; whether they are regular.
+  // Factorises all strands and the corner; returns whether they are regular.
   bool factorise(const SparseView& matrix) {
     bool is_regular[2] = {true, true};
     for_each_strand([&](Strand& strand) {
@@ -210,7 +211,7 @@ struct KktSolver::Implementation {
     return factorise_corner();
   }
 
-  // The factors of the corner, its rows scaled; whether it is regular.
+  // Factorises the corner with scaled rows; returns whether it is regular.
   bool factorise_corner() {
     if (!corner.allFinite()) return false;
     corner_scale = corner.rowwise().lpNorm<Eigen::Infinity>();
@@ -230,7 +231,7 @@ struct KktSolver::Implementation {
     for_each_strand([&](Strand& strand) { strand.upper(part, x); });
   }
 
-  // That part of x.
+  // Solves for the part of x that is eliminated last.
   void solve_part(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
     const auto p = static_cast<Eigen::Index>(pattern->part.size());
     rest.resize(p);
@@ -255,7 +256,7 @@ bool KktSolver::factorise(const SparseView& matrix, const std::vector<int>& part
   if (!all_finite(Eigen::Map<const Eigen::ArrayXd>(matrix.valuePtr(), matrix.nonZeros()))) return false;
   if (!self.pattern || !self.pattern->is_of(matrix, part)) self.analyse(matrix, part, true);
   if (self.factorise(matrix)) return true;
-  // A strand may be singular by itself where the whole is not.
+  // A strand may be singular by itself although the whole matrix is not.
   if (!self.pattern->is_cut) return false;
   self.analyse(matrix, part, false);
   return self.factorise(matrix);

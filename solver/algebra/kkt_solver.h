@@ -7,12 +7,8 @@
 
 namespace nurbeam {
 
-/// LU of one matrix pattern: symbolic analysis once, numeric factorisation as often as wanted. Within a band
-/// where the unknowns can be put into a narrow one, else by KLU.
-///
-/// A part of the unknowns whose own rows and columns S change more often than the rest is eliminated last:
-///   [A B; C S] = [L 0; W 1] [U V; 0 S - W V],  A = L U, V = L^-1 B, W = C U^-1,
-/// so that another S takes the factors of a small dense matrix only.
+/// LU of one matrix pattern: symbolic analysis once, numeric factorisation as often as wanted. The factors
+/// are banded where the unknowns can be put into a narrow band, else by KLU.
 class KktSolver {
  public:
   KktSolver();
@@ -26,13 +22,13 @@ class KktSolver {
   /// Returns whether the matrix is finite and numerically non-singular: smallest over largest pivot of the
   /// row-scaled factors above 1e-15.
   [[nodiscard]] bool factorise(const SparseView& matrix, const std::vector<int>& part = {});
-  /// Adds `change` (p x p) to S as it was in the matrix that has been factorised, in the order of the part.
-  /// Returns what factorise does.
+  /// Adds `change` (p x p) to S as it was in the factorised matrix, in the order of the part. Returns as
+  /// factorise does.
   [[nodiscard]] bool renew(const Eigen::MatrixXd& change);
-  /// x with matrix x = rhs; x may be rhs itself. Precondition: what came before returned true.
+  /// x with matrix x = rhs; x may be rhs itself. Precondition: the last factorise or renew returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
-  /// The same for many right-hand sides, a column each.
+  /// Solutions for many right-hand sides, a column each.
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   void solve(const Columns& rhs, Columns& x) const;
 

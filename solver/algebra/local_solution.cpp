@@ -18,7 +18,7 @@ View view(const SparseView& A) {
   return {A.rows(), A.cols(), A.nonZeros(), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
 }
 
-// b - A x, and what of it is round-off.
+// The residual b - A x, and its round-off.
 struct Open {
   Eigen::VectorXd rows, round_off;
 
@@ -39,8 +39,8 @@ struct Open {
   }
 };
 
-// Adds to `unknowns`, of which those from `begin` on are of the last level, what is coupled with these and
-// has no place yet. Returns where the new ones begin.
+// Adds the unknowns that are coupled with the last level, from `begin` on, and have no place yet. Returns
+// where the new ones begin.
 std::size_t append_coupled(const int* starts, const int* rows, std::size_t begin, std::vector<int>& unknowns,
                            std::vector<int>& place) {
   const std::size_t end = unknowns.size();
@@ -50,7 +50,7 @@ std::size_t append_coupled(const int* starts, const int* rows, std::size_t begin
   return end;
 }
 
-// The rows and columns of some unknowns; `place`: where each is among them, -1: it is not.
+// The rows and columns of some unknowns; `place`: index of each unknown among them, -1: none.
 Matrix part_of(const View& A, const std::vector<int>& unknowns, const std::vector<int>& place) {
   const auto size = static_cast<Eigen::Index>(unknowns.size());
   Matrix own(size, size);
@@ -66,10 +66,10 @@ Matrix part_of(const View& A, const std::vector<int>& unknowns, const std::vecto
   return own;
 }
 
-// Some of the unknowns, and the matrix of their rows and columns.
+// A window of some unknowns, with the matrix of their rows and columns.
 class Window {
  public:
-  /// What is open, and what is coupled with it over so many others.
+  /// A window of the open unknowns and those coupled with them over at most `reach` couplings.
   Window(const View& A, const Open& open, int reach) : place_(static_cast<std::size_t>(A.cols()), -1) {
     for (int i = 0; i < A.cols(); ++i)
       if (open.at(i)) {
@@ -87,7 +87,8 @@ class Window {
 
   Matrix matrix(const View& A) const { return part_of(A, unknowns_, place_); }
 
-  /// Whether the solution for it leaves the rows beyond it closed, but for round-off of what it moves.
+  /// Whether the solution in the window leaves the rows beyond it closed, to the round-off of what it
+  /// changes.
   bool suffices(const View& A, const Open& open, const Eigen::VectorXd& solution) const {
     Eigen::VectorXd left = open.rows;
     double largest = 0;
@@ -112,7 +113,7 @@ class Window {
     for (std::size_t k = 0; k < unknowns_.size(); ++k) place_[unknowns_[k]] = static_cast<int>(k);
   }
 
-  std::vector<int> unknowns_, place_;  // where each is among them, -1: it is not
+  std::vector<int> unknowns_, place_;  // place_: index of each unknown in the window, -1: none
 };
 
 }  // namespace
@@ -134,7 +135,7 @@ bool correct_locally(const SparseView& matrix, const Eigen::VectorXd& b, const s
     if (window.size() == 0) return true;
     if (window.size() == last_size || 2 * window.size() > A.cols()) break;
     last_size = window.size();
-    if (!solver.factorise(window.matrix(A))) continue;  // it has cut a constraint
+    if (!solver.factorise(window.matrix(A))) continue;  // the window has cut a constraint
     const Eigen::VectorXd solution = solver.solve(window.part(open.rows));
     if (!solution.allFinite() || !window.suffices(A, open, solution)) continue;
     window.add(solution, x);

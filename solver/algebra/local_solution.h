@@ -5,10 +5,10 @@
 
 namespace nurbeam {
 
-/// Corrects x until A x = b to round-off. Where only few rows are open, and what closes them fades away from
-/// there, as in matrices of masses, only the unknowns around them are solved for: as many as it takes, if
-/// need be all. `A`: compressed, its pattern symmetric; `last`: as `part` of KktSolver::factorise. Returns
-/// false, x unchanged, where A is singular.
+/// Corrects x until A x = b to round-off. If only few rows are open, and corrections fade away from them, as
+/// in mass matrices, only the unknowns around them are solved for: as many as it takes, if need be all. `A`:
+/// compressed, with a symmetric pattern; `last`: as `part` of KktSolver::factorise. Returns false, x
+/// unchanged, where A is singular.
 [[nodiscard]] bool correct_locally(const SparseView& A, const Eigen::VectorXd& b,
                                    const std::vector<int>& last, Eigen::VectorXd& x);
 

@@ -13,11 +13,12 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-// The lowest, by the inverse of K + shift M: as many digits are lost as the shift is away from them.
+// The lowest squared frequencies by the inverse of K + shift M. The larger the shift beside them, the more
+// digits are lost.
 std::optional<SquaredFrequencies> lowest_by_shift(const Matrix& kkt, const Matrix& mass_kkt, int n, int count,
                                                   double shift, const std::function<void()>& between) {
   const Matrix M = mass_kkt.topLeftCorner(n, n);
-  // Constraints once: both have them.
+  // The constraints must be added once, and both matrices have them.
   Matrix shifted = kkt;
   Matrix mass_alone = mass_kkt;
   for (int column = 0; column < mass_alone.cols(); ++column)
@@ -26,7 +27,7 @@ std::optional<SquaredFrequencies> lowest_by_shift(const Matrix& kkt, const Matri
   shifted += shift * mass_alone;
   std::optional<Eigenpairs> found = largest_eigenpairs(shift * M, shifted, count, between);
   if (!found) return std::nullopt;
-  constexpr double accuracy = 1e-14;  // of an eigenvalue near 1
+  constexpr double accuracy = 1e-14;  // relative, for an eigenvalue near 1
   SquaredFrequencies result{shift * (found->values.cwiseInverse().array() - 1).matrix(), found->vectors,
                             accuracy * shift};
   for (Eigen::Index i = 0; i < result.values.size(); ++i) {
@@ -54,7 +55,7 @@ std::optional<SquaredFrequencies> lowest_frequencies(const Matrix& kkt, const Ma
       continue;
     }
     const double last = found->values.size() > 0 ? found->values[found->values.size() - 1] : 0;
-    const bool moves_freely = !(last > 1e-6 * shift);  // nothing but rigid motions
+    const bool moves_freely = !(last > 1e-6 * shift);  // all are rigid motions
     if (moves_freely && shift <= 1e-12 * largest) return found;
     if (shift > 1e-3 * last && shift < 0.2 * last) return found;
     shift = moves_freely ? shift / 1e4 : 1e-2 * last;
@@ -70,7 +71,7 @@ double round_off(const SquaredFrequencies& found, Eigen::Index i, const Matrix& 
 std::vector<bool> rigid_motions(const SquaredFrequencies& found, const std::vector<double>& round_off) {
   constexpr double may_be = 100, is = 2;
   const auto count = static_cast<Eigen::Index>(round_off.size());
-  // Shapes of one frequency mix, and with them what each leaves.
+  // Shapes of equal frequency mix, and with them their round-off.
   double largest = 0;
   std::vector<bool> rigid;
   for (Eigen::Index i = 0; i < count; ++i) {

@@ -7,7 +7,8 @@ namespace nurbeam {
 
 namespace {
 
-// The largest number of a part of a correction, beside that of what it corrects; 0 where it is zero.
+// The largest number of a part of a correction, relative to that of the corrected part; 0 where the
+// correction is zero.
 double relative_size(const Eigen::VectorXd& correction, const Eigen::VectorXd& x, Eigen::Index first,
                      Eigen::Index size) {
   const double of_correction = correction.segment(first, size).lpNorm<Eigen::Infinity>();
@@ -19,9 +20,9 @@ double relative_size(const Eigen::VectorXd& correction, const Eigen::VectorXd& x
 bool correct_solution(const KktSolver& factors,
                       const std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& open)>& open,
                       double tolerance, Eigen::Index coordinates, Eigen::VectorXd& x, double& contraction) {
-  constexpr double fast = 1e-2;  // than which corrections must become smaller, each over the one before
+  constexpr double fast = 1e-2;  // limit for the ratio of each correction to the one before
   constexpr int most = 8;
-  constexpr double slower = 100;  // at most, than the last one has become, does what is left of one become
+  constexpr double slower = 100;  // limit for the growth of this ratio from one correction to the next
   const Eigen::Index others = x.size() - coordinates;
   Eigen::VectorXd left(x.size()), correction;
   double before = std::numeric_limits<double>::infinity();
@@ -35,7 +36,7 @@ bool correct_solution(const KktSolver& factors,
     if (now == 0) return true;
     if (!(now <= fast * before)) return false;
     if (i == 0) {
-      contraction *= 2;  // A changes from one to the next
+      contraction *= 2;  // A changes from one solution to the next
       if (contraction * now <= tolerance) return true;
     } else {
       if (i == 1) contraction = now / before;

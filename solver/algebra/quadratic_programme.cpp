@@ -14,7 +14,7 @@ namespace {
 using Dense = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Bounds come in one by one, the worst first, and those go out whose pressure has gone by then.
+// The active set of bounds. Bounds enter one by one, the worst first; bounds whose pressure has gone leave.
 class DualActiveSet {
  public:
   DualActiveSet(const Dense& H, const Vector& f, const Dense& rows, const Vector& bounds)
@@ -22,7 +22,7 @@ class DualActiveSet {
 
   QuadraticMinimum least(double tolerance) {
     rest_on_held();
-    // The minimum grows with each, so that none is met twice; but for round-off.
+    // The minimum grows with each bound, so that no set is met twice, except by round-off.
     const Eigen::Index most = 8 * bounds_.size() + 8;
     for (Eigen::Index round = 0; round < most; ++round) {
       Eigen::Index worst = 0;
@@ -35,7 +35,7 @@ class DualActiveSet {
   }
 
  private:
-  // x and p with H x - rows'p = force and rows x = least, of the rows that are held.
+  // x and p with H x - rows'p = force and rows x = least, for the rows of held bounds.
   std::pair<Vector, Vector> least_on_held(const Vector& force, const Vector& least) const {
     const Eigen::Index n = f_.size(), m = least.size();
     const double scale = H_.diagonal().maxCoeff();
@@ -52,7 +52,7 @@ class DualActiveSet {
 
   void rest_on_held() { std::tie(x_, pressure_) = least_on_held(-f_, bounds_(held_)); }
 
-  // Whether holding those that are held holds this one, too.
+  // Whether holding the held bounds holds this one too.
   bool depends_on_held(const Vector& row) const {
     if (held_.empty()) return false;
     const Dense columns = rows_(held_, Eigen::all).transpose();
@@ -60,8 +60,8 @@ class DualActiveSet {
     return (row - columns * parts).norm() <= 1e-9 * row.norm();
   }
 
-  // Pushes x to a bound beyond which it is, and lets go of those that this leaves without pressure; false
-  // where no x is within them all.
+  // Pushes x to a bound that it violates, and releases held bounds that lose their pressure; false where no x
+  // satisfies them all.
   bool hold(Eigen::Index bound) {
     constexpr double never = std::numeric_limits<double>::infinity();
     const Vector row = rows_.row(bound);
@@ -100,7 +100,7 @@ class DualActiveSet {
   const Vector& bounds_;
   Vector x_;
   std::vector<Eigen::Index> held_;  // bounds that x is at, whose rows are independent
-  Vector pressure_;                 // of those
+  Vector pressure_;                 // pressures of the held bounds
 };
 
 }  // namespace

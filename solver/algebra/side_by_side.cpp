@@ -20,7 +20,7 @@ ThreadLimit::ThreadLimit(int most)
           {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(std::max(1, most))}}) {}
 ThreadLimit::~ThreadLimit() = default;
 
-// A task does the pieces that wait, until there is none.
+// The pieces that wait. A task does them one after another until there is none.
 struct Alongside::Implementation {
   std::mutex mutex;
   std::deque<std::function<void()>> waiting;

@@ -6,8 +6,8 @@
 
 namespace nurbeam {
 
-/// While it lives, work is done by no more than so many threads; without one by as many as the process may
-/// run at once. What comes out never depends on it.
+/// A limit of the number of threads, while it lives; without one as many work as the process may run at once.
+/// Results never depend on it.
 class ThreadLimit {
  public:
   /// `most`: at least 1.
@@ -21,18 +21,18 @@ class ThreadLimit {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Pieces of work that go on beside their thread, one after another, where a second one is free.
+/// Pieces of work that run beside their thread, one after another, if a second thread is free.
 class Alongside {
  public:
   Alongside();
-  /// Waits for the piece that is under way, and leaves those that come after it.
+  /// Waits for the piece that is under way, and drops the pieces after it.
   ~Alongside();
   Alongside(const Alongside&) = delete;
   Alongside& operator=(const Alongside&) = delete;
 
-  /// To be done after all that have been added before.
+  /// Adds a piece, to be done after all earlier ones.
   void add(std::function<void()> work);
-  /// Until all are done; throws on what one of them has thrown, behind which the others are left.
+  /// Waits until all pieces are done. Rethrows the exception of a piece; the pieces behind it are dropped.
   void finish();
 
  private:
@@ -43,24 +43,24 @@ class Alongside {
 /// Calls work(context, i) for i = 0 .. count - 1, several at a time and in no order.
 void side_by_side(int count, void (*work)(const void* context, int i), const void* context);
 
-/// Calls work(i) for i = 0 .. count - 1, several at a time and in no order: the calls write to different
-/// places, and an exception of one is thrown on.
+/// Calls work(i) for i = 0 .. count - 1, several at a time and in no order. The calls must write to different
+/// places; an exception of one is rethrown.
 template <class Work>
 void side_by_side(int count, const Work& work) {
   side_by_side(
       count, [](const void* of, int i) { (*static_cast<const Work*>(of))(i); }, &work);
 }
 
-/// Calls both, at a time where a second thread is free: neither looks at what the other writes, and an
-/// exception of one is thrown on.
+/// Calls both functions, at the same time if a second thread is free. Neither may read what the other writes;
+/// an exception of one is rethrown.
 template <class One, class Other>
 void both(const One& one, const Other& other) {
   side_by_side(
       2, [&](int i) { i == 0 ? one() : other(); });
 }
 
-/// Calls work(first, end) for the pieces of 0 .. size - 1: for all of it at once where it is shorter than two
-/// pieces, else for several pieces at a time, as side_by_side does.
+/// Calls work(first, end) for pieces of 0 .. size - 1: once for all if shorter than two pieces, else for
+/// several pieces at a time, as side_by_side does.
 template <class Work>
 void by_pieces(long size, long piece, const Work& work) {
   if (size < 2 * piece) return work(0L, size);
@@ -69,8 +69,8 @@ void by_pieces(long size, long piece, const Work& work) {
                [&](int i) { work(i * piece, i + 1 < count ? (i + 1) * piece : size); });
 }
 
-/// The largest of what work(first, end) returns for such pieces, which is not below 0; not a number where one
-/// of them is not.
+/// The maximum of the results of work(first, end), which are not below 0, over the pieces of by_pieces; not a
+/// number if one result is not.
 template <class Work>
 double largest_of_pieces(long size, long piece, const Work& work) {
   if (size < 2 * piece) return work(0L, size);

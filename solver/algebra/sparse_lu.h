@@ -17,12 +17,13 @@ class SparseLu {
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) noexcept;
 
-  /// Takes the pattern of a compressed square matrix; whether there are matrices of it that are regular.
+  /// Takes the pattern of a compressed square matrix; returns whether matrices with this pattern can be
+  /// regular.
   [[nodiscard]] bool analyse(const Matrix& matrix);
-  /// Of a matrix of that pattern. Returns KLU's own estimate of the reciprocal condition, smallest over
-  /// largest pivot of the row-scaled factors: 0 where it is singular.
+  /// Factorises a matrix of the pattern. Returns KLU's own estimate of the reciprocal condition, smallest
+  /// over largest pivot of the row-scaled factors: 0 where the matrix is singular.
   [[nodiscard]] double factorise(const Matrix& matrix);
-  /// x with matrix x = rhs, of the last matrix, which must be regular.
+  /// x with matrix x = rhs, for the last matrix, which must be regular.
   Vector solve(const Vector& rhs) const;
 
  private:

@@ -6,7 +6,8 @@
 
 namespace nurbeam {
 
-/// A compressed matrix that is read, and one whose values are written: its indices may be those of a pattern.
+/// SparseView: a compressed matrix to read; SparseValues: one whose values are written. Their indices may be
+/// those of a pattern.
 using SparseView = Eigen::Ref<const Eigen::SparseMatrix<double>>;
 using SparseValues = Eigen::Ref<Eigen::SparseMatrix<double>>;
 
@@ -17,24 +18,24 @@ inline bool have_same_rows(const SparseView& matrix, int one, int other) {
                     rows + starts[other + 1]);
 }
 
-/// Where a square sparse matrix has entries: column by column, the rows of each in order.
+/// The positions of the entries of a square sparse matrix: column by column, the rows of each in order.
 class SparsePattern {
  public:
   SparsePattern() : column_starts_{0} {}
   /// `column_starts`: index among `rows` of the first entry of each column, and the end.
   SparsePattern(std::vector<int> column_starts, std::vector<int> rows)
       : column_starts_(std::move(column_starts)), rows_(std::move(rows)) {}
-  /// That of a compressed matrix.
+  /// The pattern of a compressed matrix.
   explicit SparsePattern(const Eigen::SparseMatrix<double>& matrix)
       : column_starts_(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1),
         rows_(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()) {}
 
-  /// Number of its rows, and of its columns.
+  /// Number of the matrix's rows, and of its columns.
   int size() const { return static_cast<int>(column_starts_.size()) - 1; }
   const std::vector<int>& column_starts() const { return column_starts_; }
   const std::vector<int>& rows() const { return rows_; }
 
-  /// The compressed matrix of that pattern, values zero.
+  /// The compressed matrix of the pattern, with zero values.
   Eigen::SparseMatrix<double> matrix() const {
     Eigen::SparseMatrix<double> zero(size(), size());
     zero.resizeNonZeros(static_cast<Eigen::Index>(rows_.size()));
@@ -44,8 +45,8 @@ class SparsePattern {
     return zero;
   }
 
-  /// That with so many values of somebody's own, rows().size(); it looks at the pattern, and writes values
-  /// alone.
+  /// The matrix with rows().size() values of the caller's own. It refers to the pattern, and only its values
+  /// may be written.
   Eigen::Map<Eigen::SparseMatrix<double>> matrix_of(double* values) const {
     return {size(),
             size(),

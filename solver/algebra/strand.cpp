@@ -11,7 +11,7 @@ namespace {
 /// Widest band that is eliminated as one: chains of elements, rings and a few branches have less.
 constexpr int widest_band = 40;
 
-// By blocks; as they come, where a band would be wide.
+// The order in blocks; unchanged where the band would be wide, with unknowns as they are numbered.
 BandOrder in_best_order(BandOrder order) {
   if (order.half_bandwidth <= widest_band) {
     BandOrder aligned = order.aligned(BandedLu::block);
@@ -30,7 +30,7 @@ StrandOrder::StrandOrder(const SparseView& matrix, BandOrder of, const std::vect
     for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k)
       visit(matrix.innerIndexPtr()[k], k);
   };
-  bool apart = false;  // the column before, from the part
+  bool apart = false;  // the column before is not coupled with the part
   for (int column = 0; column < matrix.cols(); ++column) {
     const int place = band->place[column], part = in_part[column];
     if (part < 0 && apart && have_same_rows(matrix, column - 1, column)) continue;
@@ -71,7 +71,7 @@ Strand::Strand(std::shared_ptr<const StrandOrder> order, const SparseView& matri
 Strand::~Strand() = default;
 Strand::Strand(Strand&&) noexcept = default;
 
-// A of all rows and columns.
+// Extracts A from the whole matrix.
 void Strand::extract(const SparseView& matrix) {
   matrix_.resize(size(), size());
   matrix_.reserve(matrix.nonZeros());
@@ -83,7 +83,7 @@ void Strand::extract(const SparseView& matrix) {
   matrix_.finalize();
 }
 
-// Those of A; returns the reciprocal condition.
+// Factorises A; returns the reciprocal condition.
 double Strand::factors(const SparseView& matrix) {
   if (is_banded_) return lu_.factorise(matrix);
   if (!is_structurally_regular_) return 0;
@@ -102,8 +102,8 @@ bool Strand::factorise(const SparseView& matrix, std::size_t part) {
   into_.resize(part);
   out_of_.resize(part);
   std::fill(y_.begin(), y_.end(), 0);
-  // Puts the entries of one of the part into y, times scale(place); returns the last place, -1 if there is
-  // none.
+  // Puts the entries of one unknown of the part into y, times scale(place). Returns the last place, -1
+  // without entries.
   const auto load = [&](auto& entry, const auto end, std::size_t j, int& first, const auto& scale) {
     int last = -1;
     for (; entry != end && entry->part == static_cast<int>(j); ++entry) {
@@ -135,7 +135,7 @@ bool Strand::factorise(const SparseView& matrix, std::size_t part) {
   return true;
 }
 
-// Takes what is in y, and clears it.
+// Moves the numbers in y into a piece, and clears y.
 void Strand::keep(Piece& piece, int first, int last) {
   piece.first = first;
   piece.values.assign(y_.begin() + first, y_.begin() + last + 1);

@@ -9,48 +9,48 @@
 
 namespace nurbeam {
 
-/// A few machine epsilons: what cancellation leaves of a pivot that is zero in exact arithmetic.
+/// A few machine epsilons: cancellation leaves as much of a pivot that is zero in exact arithmetic.
 inline constexpr double smallest_reciprocal_condition = 1e-15;
 
-/// Unknowns of a matrix that are coupled with none of the others but those of the part that is eliminated
-/// last, in the order of their elimination.
+/// The order of a strand: unknowns that are coupled with no others but those of the part eliminated last, in
+/// the order of their elimination.
 struct StrandOrder {
   /// An entry of B (row of A, column of S) or of C (column of A, row of S).
   struct Entry {
-    int value, place, part;  ///< among the matrix's values; of A; of S
+    int value, place, part;  ///< index among the matrix's values; place in A; place in S
   };
 
-  /// `in_part`: of each unknown its place in the part, or -1.
+  /// `in_part`: place of each unknown in the part, or -1.
   StrandOrder(const SparseView& matrix, BandOrder of, const std::vector<int>& in_part);
 
   std::shared_ptr<const BandOrder> band;
   std::vector<Entry> into, out_of;  ///< by part, then by place
 };
 
-/// The factors of a strand, A = L U, with V = L^-1 B and W = C U^-1: within its band, or by KLU, whose L is
-/// then A, and U is 1.
+/// The factors of a strand, A = L U, with V = L^-1 B and W = C U^-1. They are banded, or KLU's; with KLU L
+/// stands for A, and U is 1.
 class Strand {
  public:
   Strand(std::shared_ptr<const StrandOrder> order, const SparseView& matrix);
   ~Strand();
   Strand(Strand&&) noexcept;
 
-  /// Whether A is regular; then its factors, V and W, with `part` columns and rows.
+  /// Factorises A, and finds V and W, with `part` columns and rows. Returns whether A is regular.
   bool factorise(const SparseView& matrix, std::size_t part);
-  /// Takes W V from what is left of S.
+  /// Subtracts W V from the remainder of S.
   void take_from(Eigen::MatrixXd& schur) const;
 
-  /// Its band, where it has a narrow one.
+  /// The banded factors, if the strand has a narrow band, else null.
   const BandedLu* banded() const { return is_banded_ ? &lu_ : nullptr; }
-  /// y = L^-1 b of its share of a right-hand side.
+  /// Sets y = L^-1 b for the strand's share of a right-hand side.
   void lower(const Eigen::VectorXd& rhs);
-  /// W y of one row.
+  /// W y in one row.
   double beside(std::size_t part) const;
-  /// x = U^-1 (y - V x of the part), where x has that of the part.
+  /// x = U^-1 (y - V x_part) for the strand's unknowns, with the solution of the part given.
   void upper(const Eigen::VectorXd& part, Eigen::VectorXd& x);
 
  private:
-  // A row of W or a column of V: zero but from `first` on.
+  // A row of W or a column of V: zero before `first`.
   struct Piece {
     int first = 0;
     std::vector<double> values;
@@ -68,7 +68,7 @@ class Strand {
   bool is_banded_ = false, is_structurally_regular_ = true;
   BandedLu lu_;
   std::unique_ptr<SparseLu<double>> sparse_lu_;
-  Eigen::SparseMatrix<double> matrix_;  // that KLU takes
+  Eigen::SparseMatrix<double> matrix_;  // the matrix for KLU
   std::vector<Piece> into_, out_of_;    // V by columns, W by rows
   BandedLu::Places y_;
 };

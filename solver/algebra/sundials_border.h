@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-/// What every use of SUNDIALS needs at the border: owners, views, and no exception in a C frame.
+/// The border to SUNDIALS: owners, views, and no exception in a C frame.
 namespace nurbeam::sundials {
 
 struct Delete {
@@ -37,7 +37,8 @@ inline SUNContext new_context() {
   return owned(context);
 }
 
-/// Throws std::logic_error unless `flag`, the return value of a setter, is success: its arguments are ours.
+/// Throws std::logic_error unless `flag`, the return value of a setter, is success: its arguments are our
+/// own.
 inline void check(int flag, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
   if (flag == 0) return;
   throw std::logic_error("SUNDIALS refuses what " + std::string(file) + ":" + std::to_string(line) +
