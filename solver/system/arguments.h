@@ -5,10 +5,10 @@
 
 #include "solver/system/second_order_system.h"
 
-/// What every method asks of its arguments.
+/// Requirements of all methods on their arguments.
 namespace nurbeam {
 
-/// Of a step, over |t|: less is no distance between two times.
+/// Shortest step relative to |t|: a smaller difference does not separate two times.
 constexpr double shortest_step = 16 * std::numeric_limits<double>::epsilon();
 
 /// Throws std::invalid_argument "method: parts..." unless `rule`; numbers keep their digits.
@@ -22,12 +22,13 @@ void require(bool rule, const char* method, const Parts&... parts) {
   throw std::invalid_argument(message.str());
 }
 
-/// Throws std::invalid_argument unless the vector has as many entries as the system asks for.
+/// Throws std::invalid_argument unless the vector has as many entries as the system requires.
 inline void require_size(const char* method, const char* name, Eigen::Index size, Eigen::Index expected) {
   require(size == expected, method, name, " has ", size, " entries, the system ", expected);
 }
 
-/// The same of all vectors of a state that an integrator starts from.
+/// Throws std::invalid_argument unless all vectors of the state from which an integrator starts have the
+/// right sizes.
 inline void require_sizes(const char* method, const State& start, const SecondOrderSystem& system) {
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   require_size(method, "q", start.q.size(), n);

@@ -16,7 +16,7 @@ void measure_balance(const SecondOrderSystem& system, const State& at, const dou
   still.a.setZero();
   still.lambda.setZero();
   reference.resize(n + m);
-  // In the room of the reference: one kind of force after the other.
+  // The vector of the reference serves as room, for one kind of force after the other.
   const auto largest_work = [&] {
     return reference.head(n).cwiseAbs().cwiseQuotient(inverse_scale).lpNorm<Eigen::Infinity>();
   };

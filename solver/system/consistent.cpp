@@ -18,9 +18,9 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-/// Levels of unknowns that are coupled, beyond which what is open changes no acceleration that counts: mostly
-/// the fewer ones. Systems of no more unknowns than `few_unknowns`, that is in the plane of a chain of
-/// elements with four coordinates at each node, are solved for as a whole.
+/// Numbers of coupling levels beyond which an open row changes no acceleration that counts; the smaller one
+/// is mostly enough. Systems with no more unknowns than `few_unknowns`, a chain of plane elements with four
+/// coordinates at each node, are solved as a whole.
 constexpr int short_reach_of_accelerations = 12, long_reach_of_accelerations = 40,
               few_unknowns = 10 * long_reach_of_accelerations;
 
@@ -29,11 +29,11 @@ int reach_of_accelerations(const SecondOrderSystem& system) {
   return size < few_unknowns ? size : long_reach_of_accelerations;
 }
 
-/// Masses of elements that follow one another take 0.28 from each node to the next: 2e-7 are left, which do
-/// where little is open, and 4e-17.
+/// Levels of the corrections of velocities. Masses of elements that follow one another pass 0.28 from each
+/// node to the next: 2e-7 remain, which is enough where little is open, or 4e-17.
 constexpr std::array<int, 2> reaches_of_velocities{12, 30};
 
-/// The matrix, factorised.
+/// The factorised matrix [M + (h/2) D + (h^2/4) K, G'; G 0].
 class FactorisedKkt {
  public:
   FactorisedKkt(const SecondOrderSystem& system, const State& state, double h = 0)
@@ -74,7 +74,7 @@ class FactorisedKkt {
   bool regular_ = false;
 };
 
-/// Velocities and impulse by `solve`(kkt, b, x), of which x comes in with those of the state.
+/// Velocities and impulse by `solve`(kkt, b, x); x enters with the velocities of the state.
 template <class Solve>
 Projection from_momentum(const SecondOrderSystem& system, const Vector& momentum, State& state,
                          const Solve& solve) {
@@ -89,7 +89,7 @@ Projection from_momentum(const SecondOrderSystem& system, const Vector& momentum
   return {ConsistencyStatus::done, kkt.scale * x.tail(m)};
 }
 
-/// Those near some unknowns; nothing where that cannot be.
+/// Velocities near some unknowns; nothing where that is not possible.
 std::optional<Projection> near_velocities(const SecondOrderSystem& system, const Vector& momentum,
                                           NearKkt& near, State& state) {
   Vector impulse = Vector::Zero(system.constraint_count());
@@ -98,7 +98,7 @@ std::optional<Projection> near_velocities(const SecondOrderSystem& system, const
   return Projection{ConsistencyStatus::done, impulse};
 }
 
-/// The same, with the fewest of these reaches that do; `near` is made where there is none.
+/// Velocities near `around`, with the smallest reach that suffices; `near` is made if it is empty.
 std::optional<Projection> near_velocities(const SecondOrderSystem& system, const Vector& momentum,
                                           const std::vector<int>& around, std::optional<NearKkt>& near,
                                           State& state) {
@@ -140,7 +140,7 @@ Eigen::VectorXd constraint_speeds(const SecondOrderSystem& system, const State& 
 /// (n) M v + G' impulse.
 Eigen::VectorXd momentum_of(const SecondOrderSystem& system, const State& at, const Vector& v,
                             const Vector& impulse) {
-  // Beside accelerations as large as that forces are lost in round-off.
+  // An acceleration so large that forces are lost in round-off beside it.
   const double vast = std::ldexp(1.0, 300);
   State state = at;
   state.v.setZero();
@@ -151,8 +151,8 @@ Eigen::VectorXd momentum_of(const SecondOrderSystem& system, const State& at, co
   return dynamics / vast;
 }
 
-/// Newton's iteration for accelerations and multipliers of which the forces depend on the multipliers;
-/// whether it has converged.
+/// Newton's iteration for accelerations and multipliers if forces depend on the multipliers; returns whether
+/// it has converged.
 bool correct_accelerations(const SecondOrderSystem& system, double h, State& state) {
   constexpr int most_corrections = 30;
   constexpr double tolerance = 1e-13;
@@ -179,8 +179,8 @@ bool correct_accelerations(const SecondOrderSystem& system, double h, State& sta
   return true;  // round-off is above the tolerance
 }
 
-/// One move of Newton's method to where the constraints are closed, the least in the mass norm; whether there
-/// is one, and the place is admissible.
+/// One move of Newton's method that closes the constraints, the least in the mass norm. Returns whether there
+/// is one, and the new configuration is admissible.
 bool move_to_constraints(const SecondOrderSystem& system, State& state) {
   const FactorisedKkt kkt(system, unloaded(system, state));
   if (!kkt.regular()) return false;
@@ -198,7 +198,7 @@ ConsistencyStatus make_accelerations_smooth(const SecondOrderSystem& system, dou
   const ScaledKkt kkt(system, still, h);
   Eigen::VectorXd right(n + m);
   right << f / kkt.scale, -system.constraint_curvature(state);
-  // The factors ask for room.
+  // Memory is released, as the factors need room.
   still = {};
   f.resize(0);
   KktSolver solver;

@@ -28,12 +28,12 @@ std::vector<std::vector<Entry>> unit_rows(const SecondOrderSystem& system, const
   for (std::vector<Entry>& row : rows) {
     double square = 0;
     for (const Entry& entry : row) square += entry.value * entry.value;
-    for (Entry& entry : row) entry.value /= std::sqrt(square);  // an empty one stays
+    for (Entry& entry : row) entry.value /= std::sqrt(square);  // an empty row stays
   }
   return rows;
 }
 
-// Sets of rows that share coordinates.
+// Sets of rows that are linked by common coordinates.
 std::vector<std::vector<int>> linked(const std::vector<std::vector<Entry>>& rows) {
   std::vector<int> first(rows.size());
   std::iota(first.begin(), first.end(), 0);
@@ -54,7 +54,7 @@ std::vector<std::vector<int>> linked(const std::vector<std::vector<Entry>>& rows
   return all;
 }
 
-// The rows of a set that are part of a sum of nothing.
+// The rows of a set that are part of a sum of zero.
 std::vector<int> dependent(const std::vector<std::vector<Entry>>& rows, const std::vector<int>& set) {
   constexpr double nothing = 1e-9;
   std::map<int, int> columns;
@@ -65,7 +65,7 @@ std::vector<int> dependent(const std::vector<std::vector<Entry>>& rows, const st
   for (std::size_t i = 0; i < set.size(); ++i)
     for (const Entry& entry : rows[set[i]])
       G(static_cast<Eigen::Index>(i), columns.at(entry.coordinate)) = entry.value;
-  if (columns.empty()) return set;  // it fixes nothing
+  if (columns.empty()) return set;  // the rows fix nothing
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(G, Eigen::ComputeFullU | Eigen::ComputeThinV);
   svd.setThreshold(nothing);
   const Eigen::MatrixXd factors = svd.matrixU().rightCols(G.rows() - svd.rank());

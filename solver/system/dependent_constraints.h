@@ -5,15 +5,15 @@
 
 namespace nurbeam {
 
-/// Constraints of which each fixes a rate that the others of them fix already, so that no multipliers can be
-/// found for them.
+/// Dependent constraints: each fixes a rate that the others fix already, so that their multipliers cannot be
+/// found.
 struct DependentConstraints {
-  std::vector<int> rows;         ///< of the multipliers
-  std::vector<int> coordinates;  ///< whose rates they fix
+  std::vector<int> rows;         ///< numbers of their multipliers
+  std::vector<int> coordinates;  ///< coordinates whose rates they fix
 };
 
-/// Those of a system in a state: sets of rows of G, linked by coordinates, that add up to nothing with some
-/// factors to within 1e-9 of the largest.
+/// The dependent constraints of a system in a state: sets of rows of G, linked by coordinates, that add up to
+/// zero with some factors to within 1e-9 of the largest.
 std::vector<DependentConstraints> dependent_constraints(const SecondOrderSystem& system, const State& state);
 
 }  // namespace nurbeam

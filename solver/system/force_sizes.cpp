@@ -38,13 +38,13 @@ double ForceSizes::largest_force(const State& state) const {
   const double internal = work(dynamics(free));
   free.load = 1;
   const double moved = work(dynamics(towards_constraints(free)));
-  // Beside it the other is round-off.
+  // Beside a moved support the applied force is round-off.
   const double largest = std::max(found.largest, moved > 10 * internal ? moved : 0);
   if (largest > 0) return largest;
   return internal > 0 ? internal : 1;
 }
 
-// Of forces that cancel in what is stiff.
+// Round-off of forces that cancel in stiff parts.
 double ForceSizes::round_off(const State& state) const {
   constexpr double part = 8 * std::numeric_limits<double>::epsilon();
   const Eigen::SparseMatrix<double> stiffness = tangent_matrix(system_, state, {.stiffness = 1});
@@ -57,7 +57,8 @@ double ForceSizes::round_off(const State& state) const {
   return part * work(forces);
 }
 
-// What is held moved by G'g to where it is to be: of the size of what the constraints ask for.
+// The state with held coordinates moved by G'g towards their constraints: a move of the size that the
+// constraints ask for.
 State ForceSizes::towards_constraints(State state) const {
   const int n = system_.coordinate_count(), m = system_.constraint_count();
   Eigen::VectorXd rows(n), constraints(m);

@@ -6,16 +6,17 @@ namespace nurbeam {
 /// The state without velocities and accelerations, and with as many multipliers as the system has.
 State resting(const SecondOrderSystem& system, State state);
 
-/// How large the forces of a system at rest are: each as work over its coordinate's scale, the largest of
+/// Sizes of the forces of a system at rest: each as work over the scale of its coordinate, the largest of
 /// them [J].
 class ForceSizes {
  public:
   explicit ForceSizes(const SecondOrderSystem& system) : system_(system), scale_(system.coordinate_scale()) {}
 
-  /// Of the full load and of what the constraints do; where these alone do something, 0 if that is round-off.
+  /// Size of the full load and of the forces that the constraints cause. If the constraints alone cause a
+  /// force, it is 0 where that is round-off.
   double applied_force(const State& state) const { return applied(state).largest; }
-  /// That, and without a load what moved supports would make if that is more; else the unbalanced internal
-  /// force, else 1.
+  /// The applied force; without a load at least the force that moved supports would cause. Where both vanish:
+  /// the unbalanced internal force, else 1.
   double largest_force(const State& state) const;
 
  private:

@@ -3,8 +3,8 @@
 
 namespace nurbeam {
 
-/// The largest entry on the diagonal of M(q) at `state`, or 1 when there is none that is positive and finite:
-/// what the dynamic rows are divided by so that they stand beside the constraint rows. `kkt` is overwritten.
+/// The largest entry on the diagonal of M(q) at `state`, or 1 if none is positive and finite. The dynamic
+/// rows are divided by it, so that they compare with the constraint rows. `kkt` is overwritten.
 double mass_scale(const SecondOrderSystem& system, const State& state, SparseValues kkt);
 
 }  // namespace nurbeam

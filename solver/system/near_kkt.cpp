@@ -64,8 +64,8 @@ bool NearKkt::factorise(const State& state, double h) {
   return true;
 }
 
-// How many levels, from the first on, have other rows than in the matrix that is there: a coordinate changes
-// those of what it is coupled with.
+// Number of levels, from the first on, whose rows differ from the present matrix: a coordinate changes the
+// rows of unknowns coupled with it.
 int NearKkt::renewed_levels(const State& state) const {
   if (q_.size() == 0) return rows_;
   for (int level = levels() - 1; level >= 0; --level)
@@ -75,10 +75,10 @@ int NearKkt::renewed_levels(const State& state) const {
   return 0;
 }
 
-// Takes the rows of the first levels.
+// Reads the rows of the first levels.
 void NearKkt::read(const State& state, double h, int levels) {
   const int *starts = pattern_.column_starts().data(), columns = start(std::min(levels + 1, this->levels()));
-  // Nobody looks at the other columns.
+  // Columns of other unknowns are never read, and stay unset.
   const auto values = std::make_unique_for_overwrite<double[]>(pattern_.rows().size());
   std::vector<bool> near(static_cast<std::size_t>(pattern_.size()), false);
   for (int k = 0; k < columns; ++k) {
@@ -90,8 +90,8 @@ void NearKkt::read(const State& state, double h, int levels) {
   take(values.get(), levels);
 }
 
-// What is new stands in both, the rows and the columns of the first levels; where all is, in the columns of
-// the next level too.
+// Takes new entries in the rows and the columns of the first levels; for a new matrix also in the columns of
+// the next level.
 void NearKkt::take(const double* values, int levels) {
   const bool all = q_.size() == 0;
   const int columns_end = start(all ? std::min(levels + 1, this->levels()) : levels);
@@ -111,8 +111,8 @@ void NearKkt::take(const double* values, int levels) {
   }
 }
 
-// Takes a level's unknowns out of their fronts, of which those behind have been. False where one of their
-// pivots is none.
+// Eliminates a level's unknowns in their fronts; levels behind must have been eliminated. False where a pivot
+// is zero or not finite.
 bool NearKkt::eliminate(int level) {
   const std::span<const Front> fronts = fronts_.of_level(level), all = fronts_.all();
   const int begin = fronts.front().blocks, size = fronts.back().end() - begin;
@@ -124,7 +124,7 @@ bool NearKkt::eliminate(int level) {
                      [&](const Front& front) { return nurbeam::factorise(front, factors_.data()); });
 }
 
-// Rows of the unknowns that are solved for in, these out.
+// Solves in place: x has the rows of the unknowns that are solved for, and then these unknowns.
 void NearKkt::solve(Eigen::VectorXd& x) const {
   for (int level = inner_ - 1; level >= 0; --level)
     for (const Front& front : fronts_.of_level(level)) solve_inwards(front, factors_.data(), x.data());
@@ -132,7 +132,7 @@ void NearKkt::solve(Eigen::VectorXd& x) const {
     for (const Front& front : fronts_.of_level(level)) solve_outwards(front, factors_.data(), x.data());
 }
 
-// What is left of right - A left in the first rows.
+// The residual right - A left in the first rows.
 Eigen::VectorXd NearKkt::open_rows(const Eigen::VectorXd& right, const Eigen::VectorXd& left) const {
   Eigen::VectorXd open = Eigen::VectorXd::Zero(left.size());
   open.head(right.size()) = right;
@@ -140,8 +140,9 @@ Eigen::VectorXd NearKkt::open_rows(const Eigen::VectorXd& right, const Eigen::Ve
   return open.head(right.size());
 }
 
-// What of these is round-off: in rows of coordinates of what moves anywhere, in those of constraints of the
-// largest of what they hold. In rows beyond those that are solved for it is no more than steps leave open.
+// Round-off of the residual. Rows of coordinates are compared with the largest such row, rows of constraints
+// with the largest coordinate that they hold. Rows beyond the unknowns that are solved for may be as open as
+// steps leave them.
 Eigen::VectorXd NearKkt::round_off(const Eigen::VectorXd& right, const Eigen::VectorXd& left) const {
   constexpr double epsilon = std::numeric_limits<double>::epsilon(), beyond = 2000;
   const int count = static_cast<int>(right.size());
@@ -158,7 +159,7 @@ Eigen::VectorXd NearKkt::round_off(const Eigen::VectorXd& right, const Eigen::Ve
   return sum;
 }
 
-// Of the first places.
+// The largest entry at the first places that is a coordinate's.
 double NearKkt::largest_coordinate(const Eigen::VectorXd& of) const {
   double largest = 0;
   for (int k = 0; k < static_cast<int>(of.size()); ++k)
@@ -193,9 +194,9 @@ bool NearKkt::answer(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, 
   return true;
 }
 
-// A small part of what was open in the rows of coordinates, or a slight one of what was closed there, over
-// the root of their diagonal entries, so that forces and moments compare; and of what a correction is in
-// those of constraints.
+// Limits of rows that have faded. In rows of coordinates the limit is a small part of the open rows, or a
+// slight part of the closed forces there, over the root of the diagonal entries, so that forces and moments
+// compare. In rows of constraints it is a small part of the correction.
 Eigen::ArrayXd NearKkt::faded(const Eigen::VectorXd& open, const Eigen::VectorXd& present,
                               const Eigen::VectorXd& correction) const {
   constexpr double small = 1e-4, slight = 1e-6;
@@ -214,7 +215,7 @@ Eigen::ArrayXd NearKkt::faded(const Eigen::VectorXd& open, const Eigen::VectorXd
   return small * rows;
 }
 
-// Until the first rows are closed but for what is enough.
+// Corrects until the first rows are closed to `enough`.
 bool NearKkt::correct(const Eigen::VectorXd& right, const Eigen::ArrayXd& enough,
                       Eigen::VectorXd& left) const {
   constexpr int most_corrections = 3;
@@ -230,7 +231,7 @@ bool NearKkt::correct(const Eigen::VectorXd& right, const Eigen::ArrayXd& enough
   return true;
 }
 
-// Of coordinates and multipliers, by place.
+// The entries of coordinates and multipliers, by place.
 Eigen::VectorXd NearKkt::near_part(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom) const {
   const std::vector<int>& unknowns = fronts_.unknowns();
   Eigen::VectorXd part(static_cast<Eigen::Index>(unknowns.size()));
@@ -239,7 +240,7 @@ Eigen::VectorXd NearKkt::near_part(const Eigen::VectorXd& top, const Eigen::Vect
   return part;
 }
 
-// Of those that are solved for.
+// Writes the unknowns that were solved for back into top and bottom.
 void NearKkt::put_back(const Eigen::VectorXd& part, Eigen::VectorXd& top, Eigen::VectorXd& bottom) const {
   for (int k = 0; k < start(inner_); ++k) {
     const int i = fronts_.unknowns()[k];

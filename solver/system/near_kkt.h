@@ -8,39 +8,39 @@
 namespace nurbeam {
 
 /// [M + (h/2) D + (h^2/4) K, G'; G 0] in the rows near some unknowns alone. Levels are eliminated from
-/// outside in, so that another matrix near the first ones leaves the factors of the others as they are.
+/// outside in. A matrix that differs only near the first unknowns then keeps the factors of the other levels.
 class NearKkt {
  public:
-  /// The unknowns that are solved for: those coupled with `around` over at most so many others.
+  /// Chooses the unknowns that are solved for: those coupled with `around` over at most `reach` couplings.
   NearKkt(const SecondOrderSystem& system, const std::vector<int>& around, int reach);
 
-  /// These, in order.
+  /// The unknowns that are solved for, in order.
   std::vector<int> unknowns() const;
-  /// Of all unknowns those whose rows are known: the same and the next level.
+  /// Per unknown: whether its row is known, as of unknowns that are solved for and of the next level.
   std::vector<bool> rows() const;
   int reach() const { return reach_; }
 
-  /// Takes the matrix of a state, from which the next one with the same h may differ in q alone; whether it
-  /// can be eliminated so.
+  /// Takes and factorises the matrix of a state. The next state with the same h may differ in q alone.
+  /// Returns whether the elimination succeeds.
   [[nodiscard]] bool factorise(const State& state, double h);
 
-  /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m) to round-off; the rows next to
-  /// the unknowns that are solved for must stay closed, to 4e-13 of the largest. Returns false, and nothing
-  /// has changed, where that cannot be. Precondition: factorise() returned true.
+  /// Corrects x and y near there until M x + G'y = top (n), G x = bottom (m) to round-off. The rows next to
+  /// the unknowns that are solved for must stay closed, to 4e-13 of the largest. Returns false, with x and y
+  /// unchanged, where that is not possible. Precondition: factorise() returned true.
   [[nodiscard]] bool correct(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
                              Eigen::VectorXd& y) const;
-  /// Corrects x and y near there by what answers that rows are open by top (n) and bottom (m), to round-off;
-  /// the rows next to them must stay as open as they are, to 1e-4 of the largest or to 1e-6 of what is in
-  /// balance there. Returns as correct(), with its precondition.
+  /// Corrects x and y near there for open rows, top (n) and bottom (m), to round-off. The rows next to the
+  /// unknowns must stay as open as they are, to 1e-4 of the largest or to 1e-6 of the forces in balance
+  /// there. Returns as correct(), with its precondition.
   [[nodiscard]] bool answer(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, Eigen::VectorXd& x,
                             Eigen::VectorXd& y) const;
 
  private:
   // Columns of one front that follow one another, with entries in the same rows.
   struct Columns {
-    int first, count;   // of their unknowns
-    int place;          // of the first one
-    int entries, rows;  // where those of the first one are among entries_, and how many
+    int first, count;   // numbers of their unknowns
+    int place;          // place of the first one
+    int entries, rows;  // start of the first one's entries in entries_, and their number
   };
 
   int start(int level) const { return fronts_.start(level); }
@@ -64,13 +64,13 @@ class NearKkt {
   const SecondOrderSystem& system_;
   const SparsePattern& pattern_;
   int n_, reach_;
-  Fronts fronts_;     // those that are solved for and two more levels
-  int inner_, rows_;  // how many levels are solved for, and have rows that are known
+  Fronts fronts_;     // fronts that are solved for, and two more levels
+  int inner_, rows_;  // number of levels that are solved for, and of levels with known rows
   std::vector<Columns> columns_;
-  std::vector<int> entries_;  // where each is in the blocks; -1: in rows beyond
-  Eigen::VectorXd q_;         // of the matrix; empty: there is none
+  std::vector<int> entries_;  // index of each entry in the blocks; -1: in rows beyond
+  Eigen::VectorXd q_;         // q of the matrix; empty: there is none
   Eigen::VectorXd blocks_, factors_;
-  Eigen::VectorXd row_sizes_;  // the largest entry of each row of a constraint, 0 of others
+  Eigen::VectorXd row_sizes_;  // largest entry of each row of a constraint, 0 for other rows
 };
 
 }  // namespace nurbeam

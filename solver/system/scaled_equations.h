@@ -9,7 +9,7 @@ namespace nurbeam {
 
 /// The equations in scaled unknowns x = (q / coordinate scale, lambda / multiplier scale) and scaled rows.
 ///
-/// With proximity p > 0 and its centre q_k the dynamics are those with a = p (q - q_k), v = 0.
+/// With proximity p > 0 and its centre q_k the dynamics have a = p (q - q_k), v = 0.
 class ScaledEquations {
  public:
   using Matrix = Eigen::SparseMatrix<double>;
@@ -32,8 +32,8 @@ class ScaledEquations {
   int coordinates() const { return n_; }
   const Matrix& tangent() const { return tangent_; }
 
-  /// Scales for forces of the size `work` over coordinate scale, and constraints as large as `state` makes
-  /// them.
+  /// Sets the scales for forces of the size `work` over coordinate scale, and for constraints as large as in
+  /// `state`.
   void rescale(const State& state, double work) {
     evaluate_tangent(state, {.stiffness = 1});
     Vector constraint_size = Vector::Zero(m_);
@@ -54,7 +54,7 @@ class ScaledEquations {
     return (diagonal.array() * unknown_scale_.head(n_).array().square()).maxCoeff();
   }
 
-  /// The load of the states of scaled unknowns (State::load).
+  /// Sets the load factor of the states of scaled unknowns (State::load).
   void set_load(double factor) { state_.load = factor; }
   void set_proximity(double proximity, const Vector& centre) {
     proximity_ = proximity;
@@ -79,7 +79,8 @@ class ScaledEquations {
     return state_;
   }
 
-  /// Whether `rows`, the scaled residual at `x`, is one of an admissible configuration and finite.
+  /// Evaluates the scaled residual at `x` into `rows`; returns whether the configuration is admissible and
+  /// all is finite.
   [[nodiscard]] bool evaluate(const Eigen::Ref<const Vector>& x, Eigen::Ref<Vector> rows) {
     const State& state = state_of(x);
     if (!x.allFinite() || !system_.admissible(state)) return false;
@@ -88,20 +89,20 @@ class ScaledEquations {
     return rows.allFinite();
   }
 
-  /// Puts the scaled derivative of the rows at `x` into tangent(); returns whether it is finite.
+  /// Evaluates the scaled derivative of the rows at `x` into tangent(); returns whether it is finite.
   [[nodiscard]] bool differentiate(const Eigen::Ref<const Vector>& x) {
     evaluate_scaled_tangent(state_of(x), {.mass = proximity_, .stiffness = 1});
     return tangent_.coeffs().allFinite();
   }
 
-  /// (n x n) That of the dynamics by accelerations, as tangent() is scaled, which it takes the place of.
+  /// (n x n) The derivative of the dynamics by accelerations, scaled as tangent(), which it overwrites.
   Matrix inertia(const State& state) {
     evaluate_scaled_tangent(state, {.mass = 1});
     return tangent_.topLeftCorner(n_, n_);
   }
 
-  /// Largest scaled residual at `x` and what each may be: `tolerance` and its own round-off; a residual that
-  /// cannot be evaluated is infinite.
+  /// The largest scaled residual at `x`, and the allowed size of each row: `tolerance` and its own round-off.
+  /// A residual that cannot be evaluated is infinite.
   struct Quality {
     Vector allowed;
     double residual_norm = std::numeric_limits<double>::infinity();

@@ -11,7 +11,7 @@ class ScaledKkt {
   Eigen::VectorXd values_;
 
  public:
-  Eigen::Map<Eigen::SparseMatrix<double>> matrix;  ///< of the pattern of the system, which must outlive it
+  Eigen::Map<Eigen::SparseMatrix<double>> matrix;  ///< with the pattern of the system, which must outlive it
   double scale = 1;
 
   explicit ScaledKkt(const SecondOrderSystem& system, const State& state, double h = 0);

@@ -12,15 +12,15 @@ namespace nurbeam {
 
 /// Factors of the three tangents in the iteration matrix.
 struct TangentWeights {
-  double mass = 0;       ///< of d(dynamics)/da
-  double damping = 0;    ///< of d(dynamics)/dv
-  double stiffness = 0;  ///< of d(dynamics)/dq
+  double mass = 0;       ///< weight of d(dynamics)/da
+  double damping = 0;    ///< weight of d(dynamics)/dv
+  double stiffness = 0;  ///< weight of d(dynamics)/dq
 };
 
-/// M(q) a + G'lambda = f(q, v, t), g(q, t) = 0, and their tangents: the only thing an integrator may know.
+/// M(q) a + G'lambda = f(q, v, t), g(q, t) = 0, and their tangents: all that an integrator may know.
 ///
 /// n = coordinate_count(), m = constraint_count(); G = dg/dq (m x n). All calls are const and without side
-/// effect; those of an integrator's step allocate nothing once the output arguments have their sizes.
+/// effect. Those of an integrator's step allocate nothing once the output arguments have their sizes.
 class SecondOrderSystem {
  public:
   virtual ~SecondOrderSystem() = default;
@@ -45,14 +45,14 @@ class SecondOrderSystem {
   /// are 0.
   virtual void tangent(const State& state, const TangentWeights& w, SparseValues kkt) const = 0;
 
-  /// The same for two sets of weights.
+  /// The tangents for two sets of weights.
   virtual void tangents(const State& state, const std::array<TangentWeights, 2>& w,
                         const std::array<Eigen::SparseMatrix<double>*, 2>& kkt) const {
     for (const std::size_t k : {0, 1}) tangent(state, w[k], *kkt[k]);
   }
 
-  /// The residual in the rows of coordinates that are `near` (n+m), of which the others mean nothing, and
-  /// all of the constraints.
+  /// The residual in the rows of coordinates that are `near` (n+m) and in all constraints; other rows are
+  /// undefined.
   virtual void residual_near(const State& state, const std::vector<bool>& near,
                              Eigen::Ref<Eigen::VectorXd> dynamics,
                              Eigen::Ref<Eigen::VectorXd> constraints) const {
@@ -60,9 +60,9 @@ class SecondOrderSystem {
     residual(state, dynamics, constraints);
   }
 
-  /// That where an unknown is `near` (n+m), added to `values`, of the entries of tangent_pattern(): in
-  /// the columns of these unknowns and in those of all that is coupled with them, and right in their rows
-  /// alone.
+  /// Adds the tangent near some unknowns (n+m) to `values`, the entries of tangent_pattern(). Entries are
+  /// added in the columns of these unknowns and of all unknowns coupled with them; only the rows of these
+  /// unknowns are complete.
   virtual void tangent_near(const State& state, const TangentWeights& w, const std::vector<bool>& near,
                             double* values) const {
     Eigen::SparseMatrix<double> whole = tangent_pattern().matrix();
@@ -72,14 +72,16 @@ class SecondOrderSystem {
         if (near[whole.innerIndexPtr()[k]]) values[k] += whole.valuePtr()[k];
   }
 
-  /// Unknowns, among the n coordinates and then the m multipliers, of a part of the tangent that lasts less
-  /// than the rest: of elements that move over the material, with what constraints tie to them, so that the
-  /// other unknowns make a regular matrix. None where all lasts as long or the part is not small.
+  /// Unknowns, among the n coordinates and then the m multipliers, of the part of the tangent that changes
+  /// most often: elements that move over the material, with the unknowns that constraints tie to them. The
+  /// other unknowns must give a regular matrix. Empty where no part changes more often, or the part is not
+  /// small.
   virtual const std::vector<int>& moving_unknowns() const {
     static const std::vector<int> none;
     return none;
   }
-  /// (p x p) the share of that part in `tangent`, its rows and columns in the order of moving_unknowns().
+  /// (p x p) The share of the moving part in `tangent`, its rows and columns in the order of
+  /// moving_unknowns().
   virtual void moving_tangent(const State&, const TangentWeights&, Eigen::MatrixXd& part) const {
     part.resize(0, 0);
   }
@@ -94,20 +96,21 @@ class SecondOrderSystem {
     padded.head(x.size()) = x;
     return (gradient * padded).tail(constraint_count());
   }
-  /// (m) everything in d2g/dt2 but G a: a consistent acceleration satisfies G a + curvature = 0.
+  /// (m) d2g/dt2 without G a: a consistent acceleration satisfies G a + curvature = 0.
   virtual Eigen::VectorXd constraint_curvature(const State& state) const = 0;
 
-  /// The memory that forces have of a step that ends in `state`, whose own is that of the step's start.
+  /// The memory of forces after a step that ends in `state`; state.memory is that of the step's start.
   virtual Eigen::VectorXd committed(const State& state) const { return state.memory; }
-  /// Whether forces depend on the multipliers other than by G'lambda: the tangent has them in its columns.
+  /// Whether forces depend on the multipliers other than by G'lambda; the tangent's columns of multipliers
+  /// then contain it.
   virtual bool forces_depend_on_multipliers() const { return false; }
-  /// Whether dF/da is the same in all states, and dF/dv none: nothing moves over material, nothing damps.
+  /// Whether dF/da is equal in all states and dF/dv is zero: nothing moves over material, nothing is damped.
   virtual bool has_constant_inertia() const { return false; }
 
-  /// Longest step allowed from this state [s], for one evaluation at its end; stages follow half as much
-  /// more.
+  /// Longest step allowed from this state [s], for methods with one evaluation at the end of a step; methods
+  /// with stages may take half as much more.
   virtual double step_limit(const State&) const { return std::numeric_limits<double>::infinity(); }
-  /// Whether the configuration means anything (no element turned inside out); an integrator shortens its step
+  /// Whether the configuration is possible (no element turned inside out); an integrator shortens its step
   /// rather than accept an inadmissible state.
   virtual bool admissible(const State&) const { return true; }
   /// (n) a typical size of each coordinate, > 0, for error control.

@@ -3,16 +3,18 @@
 
 namespace nurbeam {
 
-/// t, q, v, a, lambda: a value; a trajectory is a sequence of them.
+/// The state t, q, v, a, lambda: a plain value; a trajectory is a sequence of states.
 struct State {
   double t = 0;
-  Eigen::VectorXd q;            ///< generalised positions
-  Eigen::VectorXd v;            ///< dq/dt
-  Eigen::VectorXd a;            ///< d2q/dt2
-  Eigen::VectorXd lambda;       ///< Lagrange multipliers
-  double load = 1;              ///< factor on the loads: below 1 on the way to an equilibrium
-  Eigen::VectorXd memory = {};  ///< of forces that have one, as of the last step; empty: these do not act
-  Eigen::VectorXd sides = {};   ///< 1 or 0: of 0 on which laws with a kink there are held; empty: theirs
+  Eigen::VectorXd q;       ///< generalised positions
+  Eigen::VectorXd v;       ///< dq/dt
+  Eigen::VectorXd a;       ///< d2q/dt2
+  Eigen::VectorXd lambda;  ///< Lagrange multipliers
+  double load = 1;         ///< factor on the loads: below 1 on the way to an equilibrium
+  /// Memory of forces after the last step; empty: forces with a memory do not act.
+  Eigen::VectorXd memory = {};
+  /// 1 or 0: the side of 0 on which each law with a kink is held; empty: by its strain.
+  Eigen::VectorXd sides = {};
 };
 
 }  // namespace nurbeam

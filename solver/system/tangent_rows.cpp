@@ -20,7 +20,7 @@ TangentRows::TangentRows(const SecondOrderSystem& system, const State& state, co
     place[unknown] = static_cast<int>(i);
     for (int k = starts[unknown]; k < starts[unknown + 1]; ++k) coupled[rows[k]] = true;
   }
-  // Nobody looks at the other columns.
+  // Columns of other unknowns are never read, and stay unset.
   const auto values = std::make_unique_for_overwrite<double[]>(pattern.rows().size());
   for (int column = 0; column < static_cast<int>(size); ++column)
     if (coupled[column]) {

@@ -6,17 +6,17 @@
 
 namespace nurbeam {
 
-/// Rows of a tangent, of a symmetric pattern: found near these unknowns alone.
+/// Rows of a tangent with a symmetric pattern, found near these rows alone.
 class TangentRows {
  public:
-  /// `rows`: of the coordinates and then the multipliers, in order.
+  /// `rows`: numbers of coordinates and then multipliers, in order.
   TangentRows(const SecondOrderSystem& system, const State& state, const TangentWeights& weights,
               std::vector<int> rows);
 
   const std::vector<int>& rows() const { return rows_; }
-  /// (rows, columns) Their entries in some columns.
+  /// (rows, columns) Entries of the rows in some columns.
   Eigen::MatrixXd entries(const std::vector<int>& columns) const;
-  /// (rows, columns of x) Their product with x, a row for each coordinate.
+  /// (rows, columns of x) Product of the rows with x, which has a row for each coordinate.
   template <class Columns>
   Eigen::MatrixXd product(const Columns& x) const {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(entries_.rows(), x.cols());
@@ -26,7 +26,7 @@ class TangentRows {
   }
 
  private:
-  std::vector<int> rows_, columns_;  // columns in order, of all that is coupled with the rows
+  std::vector<int> rows_, columns_;  // columns in order, coupled with the rows
   Eigen::MatrixXd entries_;
 };
 
