@@ -6,7 +6,7 @@ namespace nurbeam {
 
 State land_before(Integrator& integrator, const StepTaken& taken,
                   const std::function<double(const State&)>& g, double near, bool leaves) {
-  constexpr double shortest = 1e-7;  // of the step, that the search may still change it by
+  constexpr double shortest = 1e-7;  // part of the step, by which the search may still change it
   const double step = taken.length;
   const auto missed = [&](const State& state) { return g(state) + near / 2; };
   const auto repeat = [&](double length) {

@@ -37,12 +37,12 @@ class FirstOrderEquations {
         right_side_(n_ + system.constraint_count()) {}
 
   int size() const { return 2 * n_; }
-  /// What the last evaluation came to.
+  /// The status of the last evaluation.
   StepStatus outcome() const { return outcome_; }
   /// The state of the last evaluation, with its acceleration.
   const State& state() const { return state_; }
 
-  /// The memory of forces in the steps to come.
+  /// Sets the memory of forces for the following steps.
   void remember(const Vector& memory) {
     if (memory != state_.memory) outcome_ = StepStatus::not_converged;
     state_.memory = memory;
@@ -158,10 +158,11 @@ struct ExplicitIntegrator::Implementation {
     const double end = state.t + step;
     if (!(step > 0) || !std::isfinite(end)) return report;
     trial = state;
-    // ARKODE 5.4 takes the last stage of a table with c = 1 there, as the classical one, for the first of the
-    // next step, though it belongs to other q and v: that costs an order. A restart forgets it.
+    // ARKODE 5.4 uses the last stage of a table with c = 1 there, such as the classical one, for the first
+    // stage of the next step, though it belongs to other q and v. That costs an order; a restart discards the
+    // stage.
     if (std::exchange(must_restart, true) || is_fixed()) restart(trial);
-    int failures = 0;  // running
+    int failures = 0;  // in a row
     for (int i = 0; i < settings.max_steps; ++i) {
       const double rest = end - trial.t;
       const double longest = std::ldexp(std::min(system->step_limit(trial), rest), -failures);
@@ -198,7 +199,8 @@ struct ExplicitIntegrator::Implementation {
     sundials::check(ERKStepReset(memory.get(), from.t, y.get()));
   }
 
-  /// One step of ARKODE's from the trial state to `stop` or, under error control, less; moves it.
+  /// One step of ARKODE from the trial state to `stop` or, under error control, to an earlier time; moves the
+  /// trial state.
   StepStatus attempt(double stop) {
     if (is_fixed())
       sundials::check(ERKStepSetFixedStep(memory.get(), stop - trial.t));
@@ -216,7 +218,7 @@ struct ExplicitIntegrator::Implementation {
     return StepStatus::converged;
   }
 
-  /// Of the last step: largest estimate in units of the tolerance's own scale.
+  /// Local error of the last step: the largest estimate in units of the tolerance's own scale.
   double local_error() {
     const sundials::Owner<_generic_N_Vector> estimate(sundials::owned(N_VClone(y.get())));
     sundials::check(ERKStepGetEstLocalErrors(memory.get(), estimate.get()));
@@ -227,7 +229,7 @@ struct ExplicitIntegrator::Implementation {
   ExplicitRungeKutta settings;
   const SecondOrderSystem* system;
   State state;
-  State trial;  ///< after a step: the state before it, until that is taken
+  State trial;  ///< after a step: the state before it, until it is taken out
   FirstOrderEquations equations;
   bool must_restart = true;
   sundials::Guard guard;

@@ -15,14 +15,14 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double largest_growth = 2;  ///< of the step under error control
-/// Of the first two, in which it is that of Newton's method more than that of the matrix.
+constexpr double largest_growth = 2;  ///< largest growth of the step under error control
+/// Contraction of the first two corrections, which is due to Newton's method more than to the matrix.
 constexpr double first_contraction = 0.5;
-/// Corrections beyond those that the first step with a matrix took, after which it is taken anew: that costs
-/// about as many.
+/// Corrections in excess of those that the first step with a matrix took, after which the matrix is renewed:
+/// renewal costs about as many.
 constexpr int worth_a_matrix = 12;
-constexpr double longest_use = 50;  ///< of a matrix, in steps
-constexpr double same_step = 1e-6;  ///< relative difference that a matrix does not feel
+constexpr double longest_use = 50;  ///< longest use of a matrix, in steps
+constexpr double same_step = 1e-6;  ///< relative difference of steps that a matrix does not notice
 constexpr double safety = 0.9;
 
 constexpr const char* generalized_alpha_method = "generalized-alpha";
@@ -40,17 +40,17 @@ void check(const GeneralizedAlpha& settings) {
           " is negative");
 }
 
-/// Unknowns that are worked on at once: what an iteration reads and writes of them stays at hand, and long
-/// vectors are shared between threads.
+/// Number of unknowns worked on at once, so that data of an iteration stay in the cache and long vectors are
+/// shared between threads.
 constexpr long piece = 4096;
 
-/// The part of a vector from one entry to before another.
+/// The part of a vector from entry `first` to before `end`.
 template <class Vector>
 auto part(Vector& vector, long first, long end) {
   return vector.segment(first, end - first);
 }
 
-/// The largest of some numbers, 0 of none; not a number where one of them is not finite.
+/// The maximum magnitude of some numbers, 0 of none; not a number if one of them is not finite.
 template <class Numbers>
 double largest(const Numbers& numbers) {
   if (!all_finite(numbers)) return std::numeric_limits<double>::quiet_NaN();
@@ -74,7 +74,7 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
                                                        const SecondOrderSystem& system, State start)
     : GeneralizedAlphaIntegrator(settings, system, std::move(start), 1) {
   mass_scale_ = nurbeam::mass_scale(system, state_, matrix());
-  // The first step asks for that room again: what comes before it may have to do with as much.
+  // The first step allocates kkt_ again; code before it may need as much memory.
   kkt_.resize(0);
 }
 
@@ -181,7 +181,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     if (!std::isfinite(report.residual_norm)) return StepStatus::not_converged;
     const double correction = find_correction();
     if (!std::isfinite(correction)) return StepStatus::not_converged;
-    // A matrix from elsewhere that leads away is taken anew, not followed.
+    // A matrix from elsewhere is renewed if its correction leads away.
     if (is_kept && correction > std::max(convergence.last_correction(), settings_.newton_tolerance)) {
       linearisation_ = nullptr;
       continue;
@@ -189,7 +189,7 @@ StepStatus GeneralizedAlphaIntegrator::attempt(double step, StepReport& report) 
     correct(step);
     if (!system_->admissible(trial_)) return StepStatus::inadmissible;
     const bool done = convergence.reached(report.residual_norm, correction, settings_.newton_tolerance);
-    // What is below the tolerance may be round-off, which nothing contracts.
+    // A correction below the tolerance may be round-off, which nothing contracts.
     const bool stale = correction > settings_.newton_tolerance &&
                        !convergence.contracts(i == 1 ? first_contraction : Convergence::good_contraction);
     if (stale) linearisation_ = nullptr;
@@ -226,8 +226,8 @@ Eigen::Map<const Eigen::SparseMatrix<double>> GeneralizedAlphaIntegrator::iterat
           pattern.rows().data(), kkt_.data()};
 }
 
-/// Makes the matrix of that place the one that corrects. `still`: a copy of its state, which is worked in and
-/// comes back as it was. False where the matrix is singular.
+/// Takes and factorises the matrix at a place. `still`: a copy of its state, used as work space and restored.
+/// False where the matrix is singular.
 bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> at, State& still) {
   linearisation_ = std::move(at);
   factorised_ = nullptr;
@@ -246,7 +246,7 @@ bool GeneralizedAlphaIntegrator::linearise(std::shared_ptr<const Linearisation> 
   return true;
 }
 
-/// The same for the matrix that the next iteration takes, if another one was factorised since.
+/// Factorises the matrix of linearisation_ again, if another one was factorised since.
 bool GeneralizedAlphaIntegrator::linearise_again() {
   if (factorised_ == linearisation_) return true;
   State still = linearisation_->state;
@@ -262,7 +262,7 @@ std::shared_ptr<const Linearisation> GeneralizedAlphaIntegrator::trial_point(dou
   return spare_;
 }
 
-/// Makes the moving part of the matrix that of the trial state. False where the matrix is singular then.
+/// Renews the moving part of the matrix at the trial state. False where the matrix is then singular.
 bool GeneralizedAlphaIntegrator::renew_moving_part() {
   if (moving_part_.size() == 0) return true;
   system_->moving_tangent(trial_, weights_of(linearisation_->step), moved_part_);
@@ -277,14 +277,15 @@ TangentWeights GeneralizedAlphaIntegrator::weights_of(double step) const {
           .stiffness = beta * step * step / mass_scale_};
 }
 
-/// Calls use(alg) with that part of the method's acceleration variable moved to the step of the attempt.
+/// Calls use(alg) with this part of the method's acceleration variable, moved to the step of the attempt.
 template <class Use>
 auto GeneralizedAlphaIntegrator::with_start(long first, long end, const Use& use) const {
   if (starts_anew_) return use(part(state_.a, first, end));
   return use(part(algorithmic_acceleration_, first, end) + of_jerk_ * part(jerk_, first, end));
 }
 
-/// The trial state whose true acceleration and multipliers are those of the last state; whether it is finite.
+/// Sets the trial state, with the true acceleration and multipliers of the last state; returns whether it is
+/// finite.
 bool GeneralizedAlphaIntegrator::predict(double step) {
   const double alpha_m = parameters_.alpha_m, beta = parameters_.beta, gamma = parameters_.gamma;
   const double h = step;
@@ -309,14 +310,14 @@ bool GeneralizedAlphaIntegrator::predict(double step) {
   return not_finite == 0 && all_finite(trial_.lambda);
 }
 
-/// Of the trial state, as the system gives it.
+/// Evaluates the residual of the trial state.
 void GeneralizedAlphaIntegrator::evaluate_residual() {
   const Eigen::Index n = trial_.q.size();
   system_->residual(trial_, residual_.head(n), residual_.tail(trial_.lambda.size()));
 }
 
-/// Scales the residual as the matrix is scaled; returns the largest of it over reference, not a number where
-/// it is not finite.
+/// Scales the residual as the matrix is scaled. Returns the largest entry over its reference, not a number if
+/// one is not finite.
 double GeneralizedAlphaIntegrator::scale_residual(double step) {
   const double factor = parameters_.beta * step * step / mass_scale_;
   const Eigen::Index n = trial_.q.size();
@@ -330,8 +331,8 @@ double GeneralizedAlphaIntegrator::scale_residual(double step) {
   return of_constraints > of_forces || std::isnan(of_constraints) ? of_constraints : of_forces;
 }
 
-/// Solves for the correction that answers the residual. Returns the largest correction of q over the
-/// coordinate scale, not a number where one is not finite.
+/// Solves for the correction that closes the residual. Returns the largest correction of q over the
+/// coordinate scale, not a number if one is not finite.
 double GeneralizedAlphaIntegrator::find_correction() {
   Eigen::VectorXd& correction = residual_;
   solver_.solve(residual_, correction);
@@ -341,7 +342,7 @@ double GeneralizedAlphaIntegrator::find_correction() {
   });
 }
 
-/// Corrects the trial state: q directly, v, a and alg as the method's formulas follow it.
+/// Corrects the trial state: q directly, and v, a and alg by the method's formulas.
 void GeneralizedAlphaIntegrator::correct(double step) {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
   const double of_velocity = gamma / (beta * step), of_algorithmic = 1 / (beta * step * step);
@@ -358,8 +359,8 @@ void GeneralizedAlphaIntegrator::correct(double step) {
   trial_.lambda -= mass_scale_ * of_algorithmic * correction.tail(trial_.lambda.size());
 }
 
-/// The h^3 d3q/dt3 term of the method's own error in q, with the derivative taken from alg; over coordinate
-/// scale.
+/// The h^3 d3q/dt3 term of the method's own error in q over the coordinate scale, with the derivative taken
+/// from alg.
 double GeneralizedAlphaIntegrator::local_error(double step) const {
   const double greatest = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
     return with_start(first, end, [&](const auto& start) {

@@ -12,29 +12,30 @@ struct GeneralizedAlpha {
   double rho_infinity = 0.8;        ///< spectral radius at infinite frequency, [0,1]
   double newton_tolerance = 1e-10;  ///< on the scaled correction and residual, relative
   int max_iterations = 12;
-  int max_halvings = 12;  ///< of a failed step, before giving up
+  int max_halvings = 12;  ///< halvings of a failed step, before giving up
   double tolerance = 0;   ///< relative local error per step; 0: fixed steps
 };
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
-/// and the factorised matrix between steps: it is taken anew where a correction is not at least ten times
-/// smaller than the one before, or the second one two times, where the step's length changes, and after fifty
-/// steps. The system's moving part of it is taken anew in every step.
+/// and the factorised matrix between steps. The matrix is renewed where a correction is not at least ten
+/// times smaller than the one before (for the second one, two times), where the step's length changes, and
+/// after fifty steps. The system's moving part of the matrix is renewed in every step.
 ///
 ///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
 ///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,
 ///   M a' + G'lambda' = f(q', v', t'), g(q', t') = 0,
 ///
-/// Arnold & Bruels (2007), with their optimal parameters. Differs from it in two ways. Scaling: the dynamic
+/// as Arnold & Bruels (2007), with their optimal parameters. It differs in two ways. Scaling: the dynamic
 /// rows are multiplied by beta h^2 / (mass scale) and lambda by the inverse, so the iteration matrix tends to
-/// [(1 - alpha_m)/(1 - alpha_f) M / (mass scale), G'; G, 0] as h -> 0. Step changes: alg stands for a at
-/// t + (alpha_m - alpha_f) h, so a new step h_new moves it by (alpha_m - alpha_f)(h_new - h) d3q/dt3, the
-/// derivative taken from alg over the last step; a step more than four times the last one starts afresh with
+/// [(1 - alpha_m)/(1 - alpha_f) M / (mass scale), G'; G, 0] as h -> 0. Step changes: alg stands for a at t +
+/// (alpha_m - alpha_f) h, so a new step h_new moves it by (alpha_m - alpha_f)(h_new - h) d3q/dt3, the
+/// derivative taken from alg over the last step. A step more than four times the last one starts afresh with
 /// alg = a.
 ///
 /// Order two in q and v for any steps; in lambda for equal steps, once the start (alg = a) is forgotten like
-/// rho_infinity^k. A change of step disturbs lambda and a by O(h_new - h), likewise forgotten; where that
-/// matters, make_accelerations_consistent on a copy of the state gives both to second order from q and v.
+/// rho_infinity^k. A change of step disturbs lambda and a by O(h_new - h), which is forgotten at the same
+/// rate. Where that matters, make_accelerations_consistent on a copy of the state gives both to second order
+/// from q and v.
 ///
 /// In an exact position constraint lambda carries the round-off of q divided by h^2: a caller that must land
 /// on a time should divide the rest evenly rather than take one tiny step.
@@ -45,24 +46,24 @@ class GeneralizedAlphaIntegrator final : public Integrator {
     double alpha_f;
     double beta;
     double gamma;
-    double position_error;  ///< of one step, in units of h^3 d3q/dt3
+    double position_error;  ///< error in q of one step, in units of h^3 d3q/dt3
   };
   static Parameters parameters(double rho_infinity);
-  static constexpr double largest_rescaling = 4;  ///< of the step, beyond which the method starts afresh
+  static constexpr double largest_rescaling = 4;  ///< ratio of steps beyond which the method starts afresh
 
   /// `start` must be consistent (a and lambda too); the method's own acceleration variable is set to a.
   /// `system` must outlive the integrator. Throws std::invalid_argument for settings out of range and for a
   /// start of the wrong size.
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start);
-  /// With the scale of masses of another one.
+  /// An integrator with the scale of masses of another one.
   GeneralizedAlphaIntegrator(GeneralizedAlpha settings, const SecondOrderSystem& system, State start,
                              double mass_scale);
 
   const State& state() const override { return state_; }
-  /// What its dynamic rows are divided by (mass_scale.h).
+  /// The divisor of the dynamic rows (mass_scale.h).
   double mass_scale() const { return mass_scale_; }
-  /// Its own acceleration variable and jerk (n each), last step, last error and mass scale, and where its
-  /// matrix was taken.
+  /// The method's own acceleration variable and jerk (n each), last step, last error and mass scale, and the
+  /// state at which its matrix was taken.
   IntegratorHistory history() const override;
   void restore(State state, const IntegratorHistory& history) override;
   [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
@@ -106,25 +107,25 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   double last_step_ = 0;
   double last_error_ = 0;
   double mass_scale_ = 1;
-  int first_corrections_ = 0;                           ///< of the step that took the matrix
-  int more_corrections_ = 0;                            ///< beyond as many, of the steps that kept it
-  std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration takes
-  std::shared_ptr<const Linearisation> factorised_;     ///< of that in kkt_, solver_ and reference_
-  std::shared_ptr<Linearisation> spare_;                ///< taken again when nobody holds it any more
+  int first_corrections_ = 0;  ///< number in the step that took the matrix
+  int more_corrections_ = 0;   ///< number beyond that, in the steps that kept the matrix
+  std::shared_ptr<const Linearisation> linearisation_;  ///< of the matrix that the next iteration uses
+  std::shared_ptr<const Linearisation> factorised_;     ///< of the matrix in kkt_, solver_ and reference_
+  std::shared_ptr<Linearisation> spare_;                ///< reused when nobody else holds it
   KktSolver solver_;
   Eigen::VectorXd kkt_;          ///< values of the system's pattern; empty before a step and after a rest
-  Eigen::MatrixXd moving_part_;  ///< that in kkt_
+  Eigen::MatrixXd moving_part_;  ///< moving part as it is in kkt_
 
   // The attempt under way.
   State trial_;               ///< after a step: the state before it, until that is taken
-  bool starts_anew_ = false;  ///< from the true acceleration, not its own
-  double of_jerk_ = 0;        ///< what moves algorithmic_acceleration_ to the step of the attempt
+  bool starts_anew_ = false;  ///< from the true acceleration, not the method's own variable
+  double of_jerk_ = 0;  ///< factor of jerk_ that moves algorithmic_acceleration_ to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
   Eigen::VectorXd residual_;  ///< (n+m) scaled; once solved for, the correction that answers it
   Eigen::VectorXd
       reference_;  ///< (n+m) inverse of what the scaled residual is compared with, where factorised_ is
   Eigen::VectorXd inverse_scale_;  ///< (n) of the coordinates
-  Eigen::MatrixXd moved_part_;     ///< what the moving part is by now more than in kkt_
+  Eigen::MatrixXd moved_part_;     ///< present moving part less the one in kkt_
 };
 
 }  // namespace nurbeam

@@ -20,8 +20,8 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-/// Of the local error that Newton's iteration may leave; with IDA's 0.33 that rest passes for an error of the
-/// formula in the estimates, and twice the steps are taken.
+/// Part of the local error that Newton's iteration may leave. With IDA's 0.33 this remainder passes for an
+/// error of the formula in the estimates, and twice the steps are taken.
 constexpr double newton_fraction = 0.01;
 
 constexpr const char* ida = "IDA";
@@ -94,9 +94,10 @@ struct IdaIntegrator::Implementation {
     });
   }
 
-  /// An error of l or m that moves w or x, over the step, by less than the tolerance does no harm.
+  /// Sets the error weights. An error of l or m is harmless if it moves w or x, over the step, by less than
+  /// the tolerance.
   static int error_weights(N_Vector unknowns, N_Vector result, void* data) {
-    constexpr double first_step = 1e-9;  // over the time scale, before there is a step
+    constexpr double first_step = 1e-9;  // relative to the time scale, before there is a step
     const Implementation& self = *static_cast<Implementation*>(data);
     const auto y = sundials::map(unknowns);
     auto weights = sundials::map(result);
@@ -166,14 +167,14 @@ struct IdaIntegrator::Implementation {
     return StepStatus::not_converged;
   }
 
-  /// Where IDA's next step must end at the latest. A stop is set only where it is needed, since each disturbs
-  /// the choice of the order: when the step is longer than the limit, and when what would be left after it is
-  /// less than a step, which is then halved.
+  /// Time by which IDA's next step must end. A stop is set only where it is needed, as each disturbs the
+  /// choice of the order: when the step is longer than the limit, and when less than a step would remain
+  /// after it; the step is then halved.
   double next_stop(double t, double end, double limit) const {
-    double h = 0;  // stays so before the first step
+    double h = 0;  // remains zero before the first step
     IDAGetCurrentStep(memory.get(), &h);
     const double rest = end - t;
-    const double reached = 64 * epsilon * (std::abs(t) + h);  // less is no distance to IDA
+    const double reached = 64 * epsilon * (std::abs(t) + h);  // IDA cannot resolve a shorter time
     if (!(h > 0 && h <= limit)) {
       const double pieces = std::ceil(rest / limit);
       return pieces <= 1 ? end : t + rest / pieces;
@@ -200,7 +201,7 @@ struct IdaIntegrator::Implementation {
     return {iterations, error_failures + solver_failures};
   }
 
-  /// Of the last step: largest estimate over q and v in units of the tolerance's own scale.
+  /// Local error of the last step: the largest estimate over q and v in units of the tolerance's own scale.
   double local_error() {
     const sundials::Owner<_generic_N_Vector> estimate(sundials::owned(N_VClone(y.get())));
     sundials::check(IDAGetEstLocalErrors(memory.get(), estimate.get()));
@@ -214,7 +215,7 @@ struct IdaIntegrator::Implementation {
   State trial;
   StabilisedEquations equations;
   bool must_restart = true;
-  bool met_inadmissible = false;  ///< in the step under way
+  bool met_inadmissible = false;  ///< in the present step
   sundials::Guard guard;
   sundials::Owner<_SUNContext> context;
   sundials::Owner<_generic_N_Vector> y;

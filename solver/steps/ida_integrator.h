@@ -8,10 +8,10 @@ namespace nurbeam {
 
 /// Settings of SUNDIALS' IDA: backward differentiation of variable order and step.
 struct Ida {
-  double tolerance = 1e-8;  ///< local error per step over |q| + coordinate_scale(), likewise for v
+  double tolerance = 1e-8;  ///< local error per step over |q| + coordinate_scale(), and accordingly for v
   double time_scale = 1;    ///< v is measured against coordinate_scale() / time_scale [s]
   int max_order = 5;        ///< 1 to 5; above 2 the steps must follow undamped vibrations
-  int max_steps = 100000;   ///< of IDA in one call of advance
+  int max_steps = 100000;   ///< limit of IDA's steps in one call of advance
 };
 
 /// Advances one state by IDA's variable-order BDF, on the stabilised index-2 form (Gear, Gupta & Leimkuhler

@@ -12,7 +12,7 @@ KeptSteps::KeptSteps(const GeneralizedAlpha& settings, const SecondOrderSystem& 
 }
 
 void KeptSteps::add(const Step& step) {
-  // To the last digit, which the difference of two times is not.
+  // The length is exact to the last digit, which a difference of two times is not.
   if (size() > 0 && step.history.numbers[0] > 0) lengths_.back() = step.history.numbers[0];
   if (size() % spacing_ == 0) {
     if (moments_.size() == most_) {
@@ -27,7 +27,7 @@ void KeptSteps::add(const Step& step) {
   end_ = step.after;
 }
 
-// Of the steps from `first`, which is kept, to the next that is.
+// Starts of the steps from `first`, which is kept, to the next kept one.
 std::vector<KeptSteps::Moment> KeptSteps::beginnings(std::size_t first) const {
   std::vector<Moment> found{moments_[first / spacing_]};
   const std::size_t end = std::min(first + spacing_, size());
@@ -46,7 +46,7 @@ std::vector<KeptSteps::Moment> KeptSteps::beginnings(std::size_t first) const {
   return found;
 }
 
-// Of those that begin with step `first`.
+// Step i of those that begin with step `first`.
 KeptSteps::Step KeptSteps::step(std::size_t i, std::size_t first,
                                 const std::vector<Moment>& beginnings) const {
   const Moment& moment = beginnings[i - first];

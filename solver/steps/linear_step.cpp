@@ -41,7 +41,7 @@ void LinearStep::take(const State& before, const IntegratorHistory& history, con
     damped = !values(damping).isZero(0);
     has_constant_inertia_ = system->has_constant_inertia();
   }
-  // That of mass takes less than one of all three, and so do sums.
+  // The matrix of mass alone is cheaper than one with all three weights, and so are sums.
   values(kkt) = ((1 - alpha_m) / (1 - alpha_f) / mass_scale) * values(mass) + scale() * values(stiffness);
   if (damped) values(kkt) += (gamma * h / mass_scale) * values(damping);
   for (const int k : of_constraints_) kkt.valuePtr()[k] = stiffness.valuePtr()[k];

@@ -6,24 +6,24 @@
 
 namespace nurbeam {
 
-/// A step of generalized-alpha with one system, linearised where it has ended: what StepTangent carries
-/// forward over it and StepAdjoint back.
+/// A step of generalized-alpha with one system, linearised at its end. StepTangent carries derivatives
+/// forward over it, and StepAdjoint back.
 struct LinearStep {
-  /// What the algorithmic acceleration that the step begins with is: that of the step before, this moved to
-  /// the length of the step, or the acceleration itself.
+  /// The algorithmic acceleration with which a step begins: that of the step before, the same moved to the
+  /// new length of the step, or the acceleration itself.
   enum class Start { as_it_is, moved, afresh };
 
-  /// `of` must outlive it.
+  /// `of` must outlive this object.
   LinearStep(const GeneralizedAlpha& settings, const SecondOrderSystem& of);
-  /// Takes the matrices of a step from `before`, with that history, to `after`, which must be converged.
-  /// `repeated`: as by Integrator::repeat.
+  /// Takes the matrices of a step from `before`, with its history, to `after`, which must be converged.
+  /// `repeated`: the step was taken by Integrator::repeat.
   void take(const State& before, const IntegratorHistory& history, const State& after, bool repeated);
 
-  /// beta h^2 / (mass scale), by which the dynamic rows of `kkt` are multiplied.
+  /// beta h^2 / (mass scale), the factor of the dynamic rows of `kkt`.
   double scale() const { return parameters.beta * h * h / mass_scale; }
-  /// alpha_m - alpha_f: by how many steps the algorithmic acceleration is later.
+  /// alpha_m - alpha_f: number of steps by which the algorithmic acceleration is later.
   double lag() const { return parameters.alpha_m - parameters.alpha_f; }
-  /// How q and v at the end change with the length of the step, while the algorithmic accelerations stay.
+  /// Derivatives of q and v at the end by the length of the step, at fixed algorithmic accelerations.
   Eigen::VectorXd q_by_length() const;
   Eigen::VectorXd v_by_length() const;
 
@@ -32,13 +32,13 @@ struct LinearStep {
   double h = 0, last_step = 0, mass_scale = 1;
   Start start = Start::as_it_is;
   Eigen::VectorXd start_velocity, jerk, start_algorithmic, end_algorithmic;
-  Eigen::SparseMatrix<double> mass, damping, stiffness;  ///< the last with G and dF/dlambda
-  Eigen::SparseMatrix<double> kkt;                       ///< of the step's equations, by a correction of q
+  Eigen::SparseMatrix<double> mass, damping, stiffness;  ///< the last one with G and dF/dlambda
+  Eigen::SparseMatrix<double> kkt;  ///< matrix of the step's equations, for a correction of q
   bool damped = false;
 
  private:
-  std::vector<int> of_constraints_;    // values of G and dF/dlambda
-  bool has_constant_inertia_ = false;  // which mass and damping hold
+  std::vector<int> of_constraints_;    // indices of the values of G and dF/dlambda
+  bool has_constant_inertia_ = false;  // mass and damping hold this inertia already
 };
 
 }  // namespace nurbeam

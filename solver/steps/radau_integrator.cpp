@@ -26,13 +26,13 @@ void check(const Radau& settings) {
   require(settings.tolerance >= 0, radau, "tolerance ", settings.tolerance, " is negative");
 }
 
-/// What the stages of a step have found, and their polynomials beyond it.
+/// Accelerations and multipliers of the stages of a step, and their polynomials beyond it.
 struct KnownStages {
-  double start = 0, step = 0;  ///< [s]; no step: nothing is known
+  double start = 0, step = 0;  ///< [s]; step 0: nothing is known
   std::array<Eigen::VectorXd, stages> a, lambda;
 
   bool reach(double t) const {
-    constexpr double farthest = 5;  // in steps
+    constexpr double farthest = 5;  // part of the steps
     return step > 0 && std::abs(t - start) <= farthest * step;
   }
   void write(double t, State& to) const {
@@ -52,7 +52,8 @@ struct RadauIntegrator::Implementation {
   }
 
   StepReport advance(double step, int max_halvings, double tolerance) {
-    constexpr double of_limit = 1.5;  // which the stages follow farther than one place does
+    // Part of the step limit, as stages follow a motion farther than a single place does.
+    constexpr double of_limit = 1.5;
     StepReport report{.status = StepStatus::inadmissible, .next_step = step};
     const double limit = of_limit * system->step_limit(state);
     if (!(step > 0) || !(limit > 0)) return report;
@@ -71,7 +72,7 @@ struct RadauIntegrator::Implementation {
           return report;
         }
         report.status = StepStatus::inaccurate;
-        // Behind an event what rings fast falls more slowly than by the method's order.
+        // After an event fast oscillations fall more slowly than by the method's order.
         shorter = report.rejected > 0 ? std::min(ratio, shorter) : ratio;
       }
       ++report.rejected;
@@ -80,7 +81,7 @@ struct RadauIntegrator::Implementation {
     return report;
   }
 
-  /// Of the step, for a local error in units of the tolerance.
+  /// Change of the step for a local error in units of the tolerance.
   static double change(double error) {
     constexpr double safety = 0.9, smallest = 0.2, largest = 4;
     return std::clamp(safety * std::pow(error, -0.25), smallest, largest);
@@ -107,8 +108,8 @@ struct RadauIntegrator::Implementation {
     return StepStatus::not_converged;
   }
 
-  /// Accelerations and multipliers as known stages go on, else as they are; positions and velocities by the
-  /// method's formulas. Whether all is finite.
+  /// Predicts the stages. Accelerations and multipliers continue the known stages, else they stay as they
+  /// are; positions and velocities follow by the method's formulas. Returns whether all is finite.
   bool predict(double h) {
     const RadauMethod& method = radau_method();
     for (int i = 0; i < stages; ++i) {
@@ -168,7 +169,7 @@ struct RadauIntegrator::Implementation {
   Radau settings;
   const SecondOrderSystem* system;
   State state;
-  State before;  ///< the last step, until it is taken
+  State before;  ///< state before the last step, until it is taken out
   KnownStages known;
 
   // The attempt under way.
@@ -230,7 +231,7 @@ void RadauIntegrator::restore(State state, const IntegratorHistory& history) {
 }
 
 StepReport RadauIntegrator::repeat(const State& before, const IntegratorHistory& history, double step) {
-  // The stages of the step that is repeated are the better guess.
+  // The stages of the step that is repeated are a better guess.
   KnownStages repeated = std::move(implementation_->known);
   restore(before, history);
   if (repeated.step > 0 && repeated.start == before.t) implementation_->known = std::move(repeated);

@@ -8,7 +8,7 @@ namespace nurbeam {
 
 namespace {
 
-/// w with sum_j w_j c_j^k = moments_k for k = 0, 1, 2.
+/// The weights w with sum_j w_j c_j^k = moments_k for k = 0, 1, 2.
 RadauMethod::Row quadrature(const Eigen::Vector3d& c, const RadauMethod::Row& moments) {
   Eigen::Matrix3d powers;
   powers << Eigen::Vector3d::Ones(), c, c.cwiseAbs2();

@@ -51,7 +51,7 @@ class StabilisedEquations {
   int size() const { return 2 * (n_ + m_); }
   int differential_count() const { return 2 * n_; }
 
-  /// Whether M on the null space of G, and G, are regular at `state`: without it l and m are not determined.
+  /// Whether M on the null space of G, and G, are regular at `state`; otherwise l and m are not determined.
   bool regular(const State& state) {
     const double scale = mass_scale(system_, state, tangent_);
     system_.tangent(state, {.mass = 1 / scale}, tangent_);
@@ -99,7 +99,7 @@ class StabilisedEquations {
     return rows.allFinite() ? Outcome::finite : Outcome::not_finite;
   }
 
-  /// Entries of the matrix that jacobian() fills.
+  /// Number of entries of the matrix that jacobian() fills.
   int entry_count() const {
     int dynamic_entries = 0;
     int constraint_entries = 0;

@@ -94,7 +94,7 @@ double StageEquations::solve(const Residuals& residuals, std::array<StageCorrect
   return largest;
 }
 
-/// Of what both say of positions, over the coordinate scale.
+/// The product of the positions in x and y, over the coordinate scale.
 double StageEquations::product(const Diagonal& x, const Diagonal& y) const {
   const Eigen::ArrayXd weights = inverse_scale_.array().square();
   const auto of_complex = x.complex.head(n_).conjugate().cwiseProduct(y.complex.head(n_)).real();
@@ -103,7 +103,7 @@ double StageEquations::product(const Diagonal& x, const Diagonal& y) const {
 }
 
 void StageEquations::update(Diagonal& correction) {
-  constexpr double longest = 2;  // of an updated correction over what it is without the last update
+  constexpr double longest = 2;  // limit of an updated correction over the one without the last update
   for (std::size_t k = 0; k < before_.size(); ++k) {
     const double square = product(before_[k], before_[k]);
     if (square == 0) break;

@@ -12,45 +12,46 @@
 
 namespace nurbeam {
 
-/// What is added to a stage: of q, v, a (n each) and lambda (m).
+/// Correction of a stage: in q, v, a (n each) and lambda (m).
 struct StageCorrection {
   Eigen::VectorXd q, v, a, lambda;
 };
 
-/// The linearised equations of the stages of one step of RadauMethod, for corrections of all of them:
+/// The linearised equations of the stages of one step of RadauMethod, for corrections of all stages:
 ///
 ///   (M delta_ij + h a_ij D + h^2 (a^2)_ij K) da_j + G'dlambda_i = -(dynamics)_i,
-///   h^2 (a^2)_ij G da_j = -(constraints)_i,
+///   h^2 (a^2)_ij G da_j = -(constraints)_i.
 ///
-/// with M, D, K and G of one place, diagonalised as `a` is: a real and a complex system of n+m unknowns.
-/// Their dynamic rows are multiplied by (h gamma)^2 / (mass scale), as those of the residuals are.
+/// M, D, K and G belong to one place. The equations are diagonalised as `a` is: a real and a complex system
+/// of n+m unknowns. The dynamic rows are multiplied by (h gamma)^2 / (mass scale), as those of the residuals
+/// are.
 class StageEquations {
  public:
   static constexpr int stages = RadauMethod::stages;
   using Residuals = std::array<Eigen::VectorXd, stages>;
 
-  /// `system` must outlive it.
+  /// `system` must outlive this object.
   StageEquations(const SecondOrderSystem& system, const State& start);
 
-  /// What the dynamic rows are divided by (mass_scale.h): of the start, or of another one.
+  /// The divisor of the dynamic rows (mass_scale.h), from the start or from another integrator.
   double mass_scale() const { return mass_scale_; }
   void scale_masses_by(double mass_scale) { mass_scale_ = mass_scale; }
 
-  /// Takes the matrices at a place for steps of h; whether they are regular.
+  /// Takes the matrices at a place for steps of h; returns whether they are regular.
   [[nodiscard]] bool linearise(const State& place, double h, double tolerance);
-  /// Scales the residuals (n+m each); the largest of them over what it is compared with (measure_balance),
-  /// not a number where one is not finite.
+  /// Scales the residuals (n+m each). Returns the largest over its reference (measure_balance), not a number
+  /// if one is not finite.
   double scale(Residuals& residuals) const;
-  /// The corrections that answer scaled residuals, by the matrices as Broyden's good update changes them
-  /// with every correction since they were taken (Kelley, Iterative Methods, 1995, 7.3). Returns the largest
-  /// of q over the coordinate scale, not a number where one is not finite.
+  /// Finds the corrections for scaled residuals. Broyden's good update changes the matrices with every
+  /// correction since they were taken (Kelley, Iterative Methods, 1995, 7.3). Returns the largest correction
+  /// of q over the coordinate scale, not a number if one is not finite.
   double solve(const Residuals& residuals, std::array<StageCorrection, stages>& corrections);
-  /// Largest x over the coordinate scale of an error of q (n) filtered by the equations of first order
-  /// themselves, (1 - h gamma J) (x, y) = (of_q, 0): without motions that are quicker than the step.
+  /// Largest x over the coordinate scale, for an error of q (n) filtered by the equations of first order, (1
+  /// - h gamma J) (x, y) = (of_q, 0): without motions that are quicker than the step.
   double filtered(const Eigen::VectorXd& of_q) const;
 
  private:
-  /// Of all stages, in the coordinates in which the equations are diagonal.
+  /// Corrections of all stages, in the coordinates in which the equations are diagonal.
   struct Diagonal {
     Eigen::VectorXd real;
     Eigen::VectorXcd complex;
@@ -64,13 +65,13 @@ class StageEquations {
   Eigen::Index n_, m_;
   double mass_scale_ = 1, h_ = 0;
   Eigen::VectorXd inverse_scale_;    // (n) of the coordinates
-  Eigen::VectorXd reference_;        // (n+m) inverse
-  std::vector<int> of_constraints_;  // values of G and dF/dlambda
+  Eigen::VectorXd reference_;        // (n+m) inverse of the reference
+  std::vector<int> of_constraints_;  // indices of the values of G and dF/dlambda
   Eigen::SparseMatrix<double> mass_, damping_, stiffness_, real_;
   Eigen::SparseMatrix<std::complex<double>> complex_;
   KktSolver real_solver_;
   SparseLu<std::complex<double>> complex_solver_;
-  bool is_analysed_ = false, is_regular_ = false;  // the pattern of the complex matrix
+  bool is_analysed_ = false, is_regular_ = false;  // is_analysed_: the pattern of the complex matrix is known
   std::vector<Diagonal> before_;                   // corrections since the matrices were taken
 };
 
