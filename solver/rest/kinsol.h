@@ -43,8 +43,8 @@ class Kinsol {
     sundials::check(KINSetMaxNewtonStep(memory(), std::sqrt(static_cast<double>(equations.coordinates()))));
   }
 
-  /// Improves x until no scaled residual is above the `allowed` one or no further progress is made.
-  /// Returns the number of iterations.
+  /// Improves x until no scaled residual exceeds its `allowed` value, or no further progress is made. Returns
+  /// the number of iterations.
   int improve(Vector& x, const Vector& allowed, int strategy, int max_iterations) {
     sundials::map(x_.get()) = x;
     sundials::map(row_weight_.get()) = allowed.minCoeff() * allowed.cwiseInverse();
@@ -63,7 +63,8 @@ class Kinsol {
   }
 
  private:
-  static constexpr double multiplier_weight = 1e-6;  ///< of the multipliers in the length of a Newton step
+  /// Weight of the multipliers in the length of a Newton step.
+  static constexpr double multiplier_weight = 1e-6;
 
   struct KINMemory;
   struct DeleteMemory {

@@ -28,7 +28,7 @@ class MechanismSearch {
   std::optional<Vector> run() {
     const Vector motion = softest();
     if (motion.size() == 0) return std::nullopt;
-    // Some way is not admissible, as of a body beyond its element, or leads Newton's method astray.
+    // A large move may be inadmissible, as of a body beyond its element, or may lead Newton's method astray.
     constexpr double largest = 0.1, least = 1e-4, shorter = 1.0 / 3;
     for (double amplitude = largest; amplitude > least; amplitude *= shorter)
       for (const double sign : {1.0, -1.0})
@@ -38,12 +38,12 @@ class MechanismSearch {
   }
 
  private:
-  /// Added to the eigenvalues of the equilibrated K: so that zero ones move nothing by round-off, and little
-  /// beside those of the softest models whose equilibria are found at all.
+  /// Shift of the eigenvalues of the equilibrated K. Zero eigenvalues then move nothing by round-off, and the
+  /// shift is small beside those of the softest models whose equilibria are found at all.
   static constexpr double shift = 1e-13;
 
-  /// The tangent at some unknowns, shifted, in the equations' scaled coordinates, as equilibrated as it can
-  /// be.
+  /// Factorises the tangent at some unknowns, shifted, in the equations' scaled coordinates, equilibrated as
+  /// far as possible.
   bool factorise(const Vector& x) {
     if (!equations_.differentiate(x)) return false;
     const int n = equations_.coordinates();
@@ -53,10 +53,10 @@ class MechanismSearch {
     return solver_.factorise(kkt);
   }
 
-  /// (n) By inverse iteration, in scaled coordinates; empty where all are stiff.
+  /// (n) The softest motion by inverse iteration, in scaled coordinates; empty where all motions are stiff.
   Vector softest() {
     constexpr int iterations = 6;
-    constexpr double soft = 1e-9;  // an eigenvalue that may be zero
+    constexpr double soft = 1e-9;  // an eigenvalue below this may be zero
     if (!factorise(equations_.scaled_unknowns(at_))) return {};
     const int n = equations_.coordinates();
     Vector x = without_symmetry(n).normalized(), padded = Vector::Zero(equations_.size());
@@ -71,12 +71,12 @@ class MechanismSearch {
     return x / x.lpNorm<Eigen::Infinity>();
   }
 
-  /// Whether Newton's method leads from there to an equilibrium that is about as far away; nothing where it
-  /// leads to none. What is ten times softer than the shift has gone half of its way back after the least
+  /// Whether Newton's method leads from the moved state to an equilibrium about as far away; nothing if it
+  /// leads to none. A motion ten times softer than the shift has gone half of its way back after the least
   /// number of iterations.
   std::optional<bool> stays(const Vector& move) {
     constexpr int least = 8, most = 20;
-    constexpr double tolerance = 1e-10, left = 0.75;  // of the move
+    constexpr double tolerance = 1e-10, left = 0.75;  // part of the move
     const int n = equations_.coordinates();
     const Vector start = equations_.scaled_unknowns(at_);
     Vector x = start, rows(x.size());
@@ -102,7 +102,7 @@ class MechanismSearch {
 
 namespace {
 
-constexpr int most_coordinates = 10000;  // a chain of so many is as soft as round-off
+constexpr int most_coordinates = 10000;  // a chain with more is as soft as round-off
 
 }  // namespace
 

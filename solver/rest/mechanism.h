@@ -6,10 +6,11 @@
 
 namespace nurbeam {
 
-/// (n) A motion that nothing resists at an equilibrium, its largest component over its coordinate's scale 1:
-/// where K x = 0, G x = 0 and another equilibrium has been found some way along x, under the same loads.
+/// (n) A motion that nothing resists at an equilibrium, its largest component over its coordinate's scale 1.
+/// For this motion K x = 0, G x = 0, and another equilibrium exists some way along x, under the same loads.
+///
 /// Nothing where there is none, and where more than ten thousand coordinates hide it in round-off. Of several
-/// any, or a sum. What the system throws arrives unchanged.
+/// motions any one, or a sum. Exceptions of the system arrive unchanged.
 std::optional<Eigen::VectorXd> find_mechanism(const SecondOrderSystem& system, const State& equilibrium);
 
 /// (n) The motion that the tangent resists least, its largest component over its coordinate's scale 1, where

@@ -13,7 +13,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Columns = KktSolver::Columns;
 
-// (n + m)
+// (n + m) Rows of the residual.
 Vector residual(const SecondOrderSystem& system, const State& state) {
   const Eigen::Index n = system.coordinate_count(), m = system.constraint_count();
   Vector rows(n + m);
@@ -21,7 +21,7 @@ Vector residual(const SecondOrderSystem& system, const State& state) {
   return rows;
 }
 
-// Of the coordinates, in their typical sizes.
+// Largest correction of a coordinate, over its scale.
 double size_of(const SecondOrderSystem& system, const Vector& correction) {
   const Vector scale = system.coordinate_scale();
   return correction.head(scale.size()).cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
@@ -32,7 +32,7 @@ void take_off(const Vector& correction, State& state) {
   state.lambda -= correction.tail(state.lambda.size());
 }
 
-// One on its way to its equilibrium, with factors of a tangent near its own.
+// One rest on its way to its equilibrium, with factors of a tangent near its own.
 class Settling {
  public:
   explicit Settling(const NearRest& rest) : rest_(rest) {}
@@ -64,7 +64,7 @@ class Settling {
   double last_ = std::numeric_limits<double>::infinity();
 };
 
-// Takes factors of its own tangent, as often as corrections with them become slow.
+// Settles one rest with factors of its own tangent, renewed when corrections become slow.
 bool settle_alone(const NearRest& rest) {
   constexpr double close = 1e-6;
   constexpr int most_tangents = 6;
@@ -83,7 +83,7 @@ bool settle_alone(const NearRest& rest) {
   return before < close;
 }
 
-// Those of them that do not become slow.
+// Settles the rests whose corrections do not become slow.
 void settle_together(std::span<Settling> all, const EquilibratedKkt& near) {
   std::vector<Settling*> moving;
   const auto of_moving = [&](const auto& work) {
@@ -107,7 +107,7 @@ void settle_together(std::span<Settling> all, const EquilibratedKkt& near) {
 
 bool settle_near(const std::vector<NearRest>& rests, const EquilibratedKkt& near) {
   std::vector<Settling> all(rests.begin(), rests.end());
-  // Where the factors do not serve the first one they hardly serve the others.
+  // If the factors do not serve the first rest, they hardly serve the others.
   const std::span<Settling> first(all.data(), std::min<std::size_t>(all.size(), 1));
   settle_together(first, near);
   if (std::all_of(first.begin(), first.end(), [](const Settling& each) { return each.is_there(); }))

@@ -6,17 +6,18 @@
 
 namespace nurbeam {
 
-/// A system, and a state that is close to an equilibrium of it.
+/// A system, and a state close to one of its equilibria.
 struct NearRest {
   const SecondOrderSystem* system;
   State* state;
 };
 
-/// Brings states to the equilibria they are close to, R(q, lambda) = 0 at rest, in place, as far as round-off
-/// lets them: with factors of one tangent that is near those of all, as neighbours of one rest have, and by
-/// Newton's iteration where corrections with it do not shrink fast. Returns whether all were close enough:
-/// corrections shrink, and end far below the system's coordinate_scale(). v and a stay what they are.
-/// Precondition: systems of one size; near.regular().
+/// Brings states, in place, to the equilibria that are close, R(q, lambda) = 0 at rest, as far as round-off
+/// allows. `near`: factors of one tangent that is near those of all states, as for neighbours of one rest.
+/// Where corrections with them do not shrink fast, Newton's iteration is used.
+///
+/// Returns whether all states were close enough: corrections shrink, and end far below the system's
+/// coordinate_scale(). v and a stay unchanged. Precondition: systems of one size; near.regular().
 [[nodiscard]] bool settle_near(const std::vector<NearRest>& rests, const EquilibratedKkt& near);
 
 }  // namespace nurbeam

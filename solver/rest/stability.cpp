@@ -19,16 +19,16 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-/// What factorisation leaves of a zero eigenvalue of a matrix whose entries are at most 1: the rigid motions
+/// Round-off of a zero eigenvalue in the factorisation of a matrix whose entries are at most 1: rigid motions
 /// of free rings came out at up to 2e-13.
 constexpr double zero_eigenvalue = 5e-13;
-/// Small beside K, so that directions that the constraints forbid count as stiff; not so small that they
-/// drown the soft ones in round-off. Where that makes too soft what they forbid, less, of which more is
-/// round-off.
+/// Regularisations. They are small beside K, so that directions that the constraints forbid count as stiff;
+/// not so small that they drown the soft ones in round-off. Where forbidden directions still look unstable,
+/// smaller ones are tried, with more round-off.
 constexpr double first_regularisation = 1e-2, least_regularisation = 1e-8, finer = 1e-3;
 
-/// In the coordinates before they were multiplied by `factor`, of unit length, the largest component
-/// positive.
+/// A direction in the coordinates before they were multiplied by `factor`, of unit length, with the sign that
+/// makes the largest component positive.
 Vector given_direction(const Vector& factor, const Vector& x) {
   const Vector given = factor.head(x.size()).cwiseProduct(x).normalized();
   Eigen::Index largest = 0;
@@ -36,9 +36,9 @@ Vector given_direction(const Vector& factor, const Vector& x) {
   return given[largest] < 0 ? Vector(-given) : given;
 }
 
-/// [[K + shift, G'], [G, -r]], r the regularisation, equilibrated and factorised. By Sylvester's law it has
-/// as many negative pivots as the augmented K + shift + G'G/r has negative eigenvalues, and one for each
-/// constraint.
+/// [[K + shift, G'], [G, -r]], r the regularisation, equilibrated and factorised. By Sylvester's law this
+/// matrix has as many negative pivots as the augmented K + shift + G'G/r has negative eigenvalues, and one
+/// more for each constraint.
 class ShiftedTangent {
  public:
   ShiftedTangent(const Matrix& kkt, int n)
@@ -48,7 +48,7 @@ class ShiftedTangent {
 
   void set_regularisation(double r) { regularisation_ = r; }
 
-  /// Eigenvalues that are no greater are round-off.
+  /// Size up to which eigenvalues are round-off.
   double round_off() const { return zero_eigenvalue * first_regularisation / regularisation_; }
 
   /// The number of negative eigenvalues of K + shift on the null space of G.
@@ -73,18 +73,18 @@ class ShiftedTangent {
     return x.head(n_).normalized();
   }
 
-  /// By how much the augmented K falls along x: less is round_off().
+  /// The descent of the augmented K along x; below round_off() it does not count.
   double descent(const Vector& x) const {
     const double forbidden = (kkt_.bottomLeftCorner(kkt_.rows() - n_, n_) * x).squaredNorm();
     return -(x.dot(kkt_.topLeftCorner(n_, n_) * x) + forbidden / regularisation_) / x.squaredNorm();
   }
-  /// What of it the constraints allow.
+  /// The part of x that the constraints allow.
   Vector allowed(const Vector& x) const {
     const Matrix G = kkt_.bottomLeftCorner(kkt_.rows() - n_, n_);
     if (G.rows() == 0) return x;
     Matrix across = G * Matrix(G.transpose()), identity(G.rows(), G.rows());
     identity.setIdentity();
-    constexpr double little = 1e-14;  // of constraints that say the same
+    constexpr double little = 1e-14;  // for constraints that depend on one another
     const Eigen::SimplicialLDLT<Matrix> solver(across + little * identity);
     if (solver.info() != Eigen::Success) return x;
     return x - G.transpose() * Vector(solver.solve(Vector(G * x)));
@@ -99,7 +99,7 @@ class ShiftedTangent {
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
 
-/// The eigenvector of the lowest eigenvalue, which is below that of round-off.
+/// The eigenvector of the lowest eigenvalue, which must be below -round_off().
 Vector lowest_of(ShiftedTangent& tangent) {
   double negative = tangent.round_off(), positive = 10 * negative;  // it is between -positive and -negative
   while (tangent.factorise(positive) > 0 && positive < 10) {
@@ -114,7 +114,7 @@ Vector lowest_of(ShiftedTangent& tangent) {
   return tangent.nearest_eigenvector();
 }
 
-/// A basis V (n x (k + 1)) of what a matrix A makes of a vector again and again, orthonormal, and A V_k = V
+/// An orthonormal basis V (n x (k + 1)) of a vector and its repeated products with a matrix A, with A V_k = V
 /// H.
 struct Krylov {
   Eigen::MatrixXd V, H;
@@ -130,7 +130,7 @@ Krylov arnoldi(int n, const std::function<Vector(const Vector&)>& times) {
   for (int k = 0; k < size; ++k) {
     Vector next = times(V.col(k));
     const double length = next.norm();
-    for (int pass = 0; pass < 2; ++pass) {  // once more for what round-off leaves
+    for (int pass = 0; pass < 2; ++pass) {  // once more, for the round-off of the first pass
       const Vector along = V.leftCols(k + 1).transpose() * next;
       next -= V.leftCols(k + 1) * along;
       H.col(k).head(k + 1) += along;
@@ -142,15 +142,15 @@ Krylov arnoldi(int n, const std::function<Vector(const Vector&)>& times) {
   return krylov;
 }
 
-/// K x = lambda M x + G'y, G x = 0 in the equilibrated coordinates, where M is the identity or one that is
-/// given, made regular and at most of order 1.
+/// The pencil K x = lambda M x + G'y, G x = 0 in the equilibrated coordinates. M is the identity, or a given
+/// matrix that is made regular and at most of order 1.
 class Pencil {
  public:
   Pencil(const Matrix& kkt, int n) : Pencil(kkt, n, Matrix(n, n), 1) {}
   Pencil(const Matrix& kkt, int n, const Matrix& mass) : Pencil(kkt, n, mass, 1e-9) {}
 
-  /// What falls in an eigenvector whose lambda is at least -`least` and has a negative real part, and is more
-  /// than round-off.
+  /// An instability by an eigenvector whose lambda has a negative real part, not below -`least`, and beyond
+  /// round-off.
   Stability falls(double least) const {
     for (double a = least; a > zero_eigenvalue; a /= 10)
       if (const Vector x = falling(a); x.size() > 0)
@@ -158,7 +158,7 @@ class Pencil {
     return {};
   }
 
-  /// The negative of a number that no lambda's real part is below.
+  /// A number a such that no lambda has a real part below -a.
   double bound() const {
     const Matrix symmetric = (kkt_ + Matrix(kkt_.transpose())) / 2;
     double a = zero_eigenvalue;
@@ -180,10 +180,10 @@ class Pencil {
     mass_.setFromTriplets(entries.begin(), entries.end());
   }
 
-  /// Of the eigenvectors that Arnoldi's iteration with (K + a M)^-1 M finds: those of lambda near to -a.
-  /// Empty where none falls.
+  /// An unstable direction among the eigenvectors with lambda near -a, found by Arnoldi's iteration with (K +
+  /// a M)^-1 M; empty if there is none.
   Vector falling(double a) const {
-    constexpr double aside = 1.3;  // of what is an eigenvalue itself
+    constexpr double aside = 1.3;  // factor that moves a off an eigenvalue
     KktSolver solver;
     if (!solver.factorise(Matrix(kkt_ + a * mass_))) {
       a *= aside;
@@ -239,8 +239,9 @@ std::optional<Stability> stability(const Matrix& kkt, int n) {
     tangent.set_regularisation(r);
     const int unstable = tangent.factorise(tangent.round_off());
     const Vector lowest = unstable > 0 ? lowest_of(tangent) : Vector();
-    if (unstable == 0 || !(tangent.descent(lowest) > tangent.round_off())) {  // or pivots of round-off
-      // What was found before may be too flat to be seen now.
+    // Or negative pivots were round-off.
+    if (unstable == 0 || !(tangent.descent(lowest) > tangent.round_off())) {
+      // A descent found before may be too flat to be seen now.
       return descent > tangent.round_off() ? Stability{} : Pencil(kkt, n).falls(2 * descent);
     }
     descent = tangent.descent(lowest);
@@ -252,7 +253,8 @@ std::optional<Stability> stability(const Matrix& kkt, int n) {
 
 Stability divergence(const Matrix& kkt, int n, const std::function<Matrix()>& mass) {
   const Matrix symmetric = (kkt + Matrix(kkt.transpose())) / 2;
-  if (stability(symmetric, n)->unstable_directions == 0) return {};  // no real part is below the least of it
+  // No real part of lambda is below its least eigenvalue.
+  if (stability(symmetric, n)->unstable_directions == 0) return {};
   const Pencil pencil(kkt, n, mass());
   return pencil.falls(pencil.bound());
 }

@@ -6,24 +6,27 @@
 
 namespace nurbeam {
 
-/// What the tangent says of an equilibrium: it is stable where K is positive definite on the null space of G.
+/// The stability of an equilibrium by its tangent: stable where K is positive definite on the null space of
+/// G.
 struct Stability {
-  int unstable_directions = 0;  ///< negative eigenvalues of K there; of divergence(): 1 where there are some
-  /// (n) One of them, of unit length; empty where there is none.
+  int unstable_directions = 0;  ///< number of negative eigenvalues of K on the null space of G; for
+                                ///< divergence(): 1 if there are any
+  /// (n) An unstable direction, of unit length; empty where there is none.
   Eigen::VectorXd direction = {};
 };
 
-/// Whether K (n x n) of [[K, G'], [G, 0]] is symmetric, but for round-off: else there is no energy.
+/// Whether K (n x n) of [[K, G'], [G, 0]] is symmetric to round-off; otherwise there is no energy.
 bool is_symmetric(const Eigen::SparseMatrix<double>& kkt, int n);
 
-/// Of [[K, G'], [G, 0]] with K n x n. What round-off may have made of zero counts as zero. Nothing where K is
-/// not symmetric (follower loads): there is no energy.
+/// The stability by [[K, G'], [G, 0]] with K n x n. Eigenvalues that may be round-off count as zero. Nothing
+/// where K is not symmetric (follower loads): there is no energy.
 std::optional<Stability> stability(const Eigen::SparseMatrix<double>& kkt, int n);
 
-/// The same of a K that is not symmetric: stable is what has no eigenvalue of K x = lambda M x + G'y, G x = 0
-/// with a negative real part. What has one leaves from rest, with any damping by M. Complex ones with a
-/// positive real part (flutter) are those of motions that damping may end, and pass. `mass` (n x n) may be
-/// singular, and is asked only where the symmetric part of K is not positive definite.
+/// The stability by an unsymmetric K. An equilibrium is stable if no eigenvalue of K x = lambda M x + G'y, G
+/// x = 0 has a negative real part; with such an eigenvalue it is left, whatever damping by M acts. Complex
+/// eigenvalues with a positive real part (flutter) belong to motions that damping may end, and count as
+/// stable. `mass` (n x n) may be singular, and is asked for only where the symmetric part of K is not
+/// positive definite.
 Stability divergence(const Eigen::SparseMatrix<double>& kkt, int n,
                      const std::function<Eigen::SparseMatrix<double>()>& mass);
 

@@ -18,20 +18,22 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double largest_change = 1;         ///< of a coordinate in one increment, over its scale
-constexpr double noticeable_change = 1e-6;   ///< that is no round-off
-constexpr double settled_change = 0.05;      ///< in a proximal step, from which plain Newton is tried
-constexpr double proximal_tolerance = 1e-6;  ///< on the scaled residual of a proximal step, where it moves
+/// Limit for the change of a coordinate in one increment, over its scale.
+constexpr double largest_change = 1;
+constexpr double noticeable_change = 1e-6;   ///< a change above round-off
+constexpr double settled_change = 0.05;      ///< change in a proximal step below which plain Newton is tried
+constexpr double proximal_tolerance = 1e-6;  ///< for the scaled residual of a proximal step that moves
 constexpr double first_increment = 0.1;
 constexpr double smallest_increment = 1e-8;
 constexpr int easy_iterations = 6;
 constexpr int proximal_iterations = 15;
-constexpr double departing_change = 1e-2;  ///< from an unstable equilibrium, of a coordinate over its scale
+/// Departure from an unstable equilibrium, change of a coordinate over its scale.
+constexpr double departing_change = 1e-2;
 
 /// One search: the state and load factor of the last equilibrium, and what was spent so far.
 class EquilibriumSearch {
  public:
-  /// `may_diverge`: what is unstable without an energy will do.
+  /// `may_diverge`: whether an unstable equilibrium without an energy is accepted.
   EquilibriumSearch(const StaticEquilibrium& settings, const SecondOrderSystem& system, const State& start,
                     bool may_diverge)
       : settings_(settings),
@@ -48,7 +50,7 @@ class EquilibriumSearch {
     const auto is_over = [&](FirstStep first) { return reach(1, first).converged || !steps_left(); };
     if (!is_over(FirstStep::full) && !is_over(FirstStep::bounded)) {
       const Outcome start = reach(0);
-      const bool diverges = start.unstable() && diverged_;  // what ended another search, if anything
+      const bool diverges = start.unstable() && diverged_;  // another search ended with it, if any did
       if (start.converged)
         follow_load();
       else if (!diverges)
@@ -62,7 +64,7 @@ class EquilibriumSearch {
 
   const State& state() const { return state_; }
   bool ended() const { return ended_; }
-  /// Whether it failed for want of one that does not diverge.
+  /// Whether the search failed as it found only equilibria that diverge.
   bool wants_stability() const {
     return diverged_ && !may_diverge_ && !ended_ && report_.status != StaticStatus::converged;
   }
@@ -71,10 +73,10 @@ class EquilibriumSearch {
   struct Outcome {
     bool converged = false;
     bool singular_at_start = false;
-    bool turns_back = false;  // against where the tangent leads
+    bool turns_back = false;  // the move is against the direction of the tangent
     int iterations = 0;
     double residual_norm = 0;
-    Stability stability = {};  // of what it converged to
+    Stability stability = {};  // of the equilibrium it converged to
 
     bool unstable() const { return stability.unstable_directions > 0; }
     bool branches() const { return unstable() && !turns_back; }
@@ -100,22 +102,23 @@ class EquilibriumSearch {
     }
   }
 
-  /// Where the branch itself becomes unstable no smaller ones will follow it.
+  /// Smallest increment after an attempt: if the branch itself becomes unstable, smaller increments will not
+  /// help.
   double smallest_after(const Outcome& outcome) const {
     constexpr double largest = 1e-3, of_the_load = 1e-2;
     if (!outcome.branches()) return smallest_increment;
     return std::max(smallest_increment, std::min(largest, of_the_load * report_.load_factor));
   }
-  /// To where a branch has ended or is unstable by more than a little, and not by much.
+  /// Increment of the load to leap over the end of a branch, or to where it is clearly unstable, but not far.
   double leap() const {
     constexpr double longest = 1e-2, of_the_load = 0.1;
     return std::min(longest, of_the_load * report_.load_factor);
   }
   double load_after(double increment) const { return std::min(1.0, report_.load_factor + increment); }
 
-  /// Newton at a load factor from the last equilibrium to a stable one within the bound on the change, and on
-  /// its branch. From a singular tangent its direction means nothing, and so does the equilibrium it may end
-  /// in.
+  /// Newton's method at a load factor, from the last equilibrium to a stable one within the bound on the
+  /// change, and on its branch. If the tangent is singular its direction has no meaning, and neither has the
+  /// equilibrium found.
   Outcome reach(double factor, FirstStep first = FirstStep::full) {
     ++report_.load_steps;
     State trial = state_;
@@ -130,8 +133,8 @@ class EquilibriumSearch {
     return outcome;
   }
 
-  /// Where a load factor moves the last equilibrium by its tangent, in scaled coordinates; zero where that is
-  /// singular.
+  /// The move of the last equilibrium to a load factor by its tangent, in scaled coordinates; zero where the
+  /// tangent is singular.
   Vector heading(double factor) {
     equations_.clear_proximity();
     equations_.set_load(report_.load_factor);
@@ -145,8 +148,8 @@ class EquilibriumSearch {
     return move.allFinite() ? move : Vector::Zero(scale_.size());
   }
 
-  /// Proximal steps at a load factor from the last equilibrium until plain Newton converges nearby, to an
-  /// equilibrium that is stable: an unstable one is left along its unstable direction.
+  /// Proximal steps at a load factor, from the last equilibrium, until plain Newton converges nearby to a
+  /// stable equilibrium. An unstable one is left along its unstable direction.
   bool relax(double factor) {
     equations_.set_load(factor);
     State centre = state_;
@@ -160,7 +163,7 @@ class EquilibriumSearch {
       State trial = centre;
       const Outcome step = proximal_step(proximity, tolerance, trial);
       const double moved = change(trial, centre);
-      // The energy falls from step to step, and never leads there again.
+      // The energy falls from step to step, and never leads back to the unstable equilibrium.
       const bool back =
           left && change(trial.q, *left) < std::min(0.9 * change(centre.q, *left), settled_change);
       if (!step.converged || !(moved <= largest_change) || back) {
@@ -179,7 +182,8 @@ class EquilibriumSearch {
         accept(factor, trial, settled);
         return true;
       }
-      // From one after the other, what is pressed together hard has many; but from where descent ends.
+      // Unstable equilibria are left one after the other, as parts pressed together hard have many; also the
+      // one where the descent ends.
       const double passed = left ? change(trial.q, *left) : std::numeric_limits<double>::infinity();
       const bool arrived = settling <= departing_change / 10 && passed > departing_change / 10;
       if (settled.unstable() && settling <= settled_change && (passed > settled_change || arrived)) {
@@ -187,19 +191,20 @@ class EquilibriumSearch {
         centre.q = trial.q + departure(settled.stability);
         continue;
       }
-      // What is soft beside large forces moves only where they are closed well.
+      // Soft parts beside large forces move only if these are closed well.
       if (step.iterations == 0) tolerance = std::max(tolerance / 100, settings_.tolerance);
       proximity *= step.iterations <= easy_iterations ? 0.2 : 0.5;
     }
     return false;
   }
 
-  /// From an unstable equilibrium.
+  /// The move off an unstable equilibrium along its unstable direction.
   Vector departure(const Stability& from) const {
     return departing_change / from.direction.lpNorm<Eigen::Infinity>() * from.direction.cwiseProduct(scale_);
   }
 
-  /// Solves the equilibrium at `factor` from `trial`, in place; rescaled as the multipliers become known.
+  /// Solves the equilibrium at `factor` from `trial`, in place; the equations are rescaled as the multipliers
+  /// become known.
   ///
   /// Full Newton steps come first: where stiff members turn, a line search would follow them in tiny steps.
   Outcome newton(double factor, State& trial, FirstStep first = FirstStep::full) {
@@ -210,19 +215,20 @@ class EquilibriumSearch {
     auto quality = equations_.quality(equations_.scaled_unknowns(trial), settings_.tolerance);
     Outcome outcome{.converged = quality.residual_norm <= settings_.tolerance,
                     .residual_norm = quality.residual_norm};
-    // Without loads, beside which it could be small, a residual of round-off is as good as none: of what
-    // moves freely nothing tells where to look for less.
+    // Without loads as a measure, a residual at round-off is accepted: in a model that moves freely nothing
+    // tells where a smaller one is.
     const bool is_loaded = sizes_.applied_force(trial) > 0;
     if (quality.acceptable && !is_loaded) outcome = {.converged = true};
     if (!outcome.converged) outcome.singular_at_start = !kkt_solver_.factorise(equations_.tangent());
     if (first == FirstStep::bounded) {
       const bool bounds = !outcome.converged && !outcome.singular_at_start && take_bounded_step(trial);
-      if (!bounds) return {.residual_norm = outcome.residual_norm};  // as the full one went
+      // The attempt with full steps has given this result.
+      if (!bounds) return {.residual_norm = outcome.residual_norm};
     }
     const auto improve_by = [&](int strategy, int iterations) {
       Vector x = equations_.scaled_unknowns(trial);
       const auto found = improved(x, quality.allowed, strategy, iterations, outcome);
-      // Where much of it is the round-off of large forces, what a small one still lacks counts.
+      // Where a residual is mostly the round-off of large forces, the rest of a small force still counts.
       const bool settles = found.acceptable && !quality.acceptable;
       const bool better = settles || found.residual_norm <= outcome.residual_norm;
       if (better) trial = equations_.state_of(x);
@@ -234,7 +240,8 @@ class EquilibriumSearch {
     if (!outcome.converged) improve_by(KIN_NONE, settings_.max_iterations);
     if (!outcome.converged) improve_by(KIN_LINESEARCH, std::min(20, settings_.max_iterations));
     if (outcome.residual_norm > settings_.tolerance) {
-      // What is soft may be as far off as its own small forces are wrong in the round-off of large ones.
+      // Soft parts may be displaced as far as the round-off of large forces makes their own small forces
+      // wrong.
       constexpr double of_the_way = 1e-2, of_the_scale = 1e-6;
       const double left = outcome.converged ? polish(trial) : 0;
       const bool is_lost = is_loaded && left > std::max(of_the_way * change(trial, start_), of_the_scale);
@@ -251,9 +258,9 @@ class EquilibriumSearch {
     return outcome;
   }
 
-  /// Newton's first step where it leads out of the model, as a straight wire's does, which is soft as long as
-  /// it is straight: as far as the forces along it lead. From there full steps know what is stiff. Whether
-  /// there is such a one.
+  /// Newton's first step, bounded, where it leads out of the model. A straight wire's step does, as the wire
+  /// is soft only while it is straight. The step goes as far as the forces along it lead; after it, full
+  /// steps know the stiffness. Returns whether there was such a step.
   bool take_bounded_step(State& trial) {
     const int n = equations_.coordinates();
     const Vector x = equations_.scaled_unknowns(trial);
@@ -277,7 +284,7 @@ class EquilibriumSearch {
     return true;
   }
 
-  /// Of the equilibrium whose tangent the equations have.
+  /// The stability of the equilibrium whose tangent the equations have.
   Stability stability_of(const State& equilibrium) {
     const int n = equations_.coordinates();
     report_.diverges = false;
@@ -289,8 +296,8 @@ class EquilibriumSearch {
     return may_diverge_ ? Stability{} : found;
   }
 
-  /// Newton's corrections of what is converged, as long as they shrink. Returns the largest one, in scaled
-  /// coordinates, that is left: of round-off; 0 where the tangent tells nothing.
+  /// Newton's corrections of a converged state, as long as they shrink. Returns the largest last correction,
+  /// in scaled coordinates, which is round-off; 0 where the tangent is singular.
   double polish(State& trial) {
     constexpr int most_corrections = 8;
     Vector x = equations_.scaled_unknowns(trial), rows(equations_.size());
@@ -322,7 +329,7 @@ class EquilibriumSearch {
     return outcome;
   }
 
-  /// Improves x as improve() does, and asks now and then whether what is left is the round-off of the forces
+  /// Improves x as improve() does. Now and then it checks whether the remainder is the round-off of forces
   /// that have come up on the way.
   ScaledEquations::Quality improved(Vector& x, const Vector& allowed, int strategy, int iterations,
                                     Outcome& outcome) {
@@ -358,7 +365,7 @@ class EquilibriumSearch {
   }
 
   bool steps_left() const {
-    constexpr int share = 2;  // for another search
+    constexpr int share = 2;  // divisor that leaves steps for another search
     const bool another = diverged_ && !may_diverge_;
     return report_.load_steps < (another ? settings_.max_load_steps / share : settings_.max_load_steps);
   }
@@ -372,8 +379,8 @@ class EquilibriumSearch {
   const State start_;
   StaticReport report_;
   bool lost_in_round_off_ = false;  // since the last equilibrium
-  bool ended_ = false;              // by the settings
-  bool diverged_ = false;           // an equilibrium on the way
+  bool ended_ = false;              // by settings_.ends_at
+  bool diverged_ = false;           // an equilibrium on the way diverges
   ScaledEquations equations_;
   Kinsol kinsol_;
   KktSolver kkt_solver_;
