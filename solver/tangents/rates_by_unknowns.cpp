@@ -15,13 +15,13 @@ Eigen::MatrixXd rates_by_unknowns(const std::function<Eigen::VectorXd(const Eige
     other[i] += part * steps[i];
     return quantities(other);
   };
-  // By unevenly many steps each, so that nothing cancels.
+  // The unknowns change by uneven numbers of steps, so that no effects cancel.
   const auto change_something = [&](Eigen::Index first, Eigen::Index end) {
     Vector other = x;
     for (Eigen::Index i = first; i < end; ++i) other[i] += (1 + static_cast<double>(i % 7) / 8) * steps[i];
     return quantities(other) != present;
   };
-  // By how much of itself one of them changes, at most.
+  // The largest relative change of a quantity.
   const auto change = [&](const Vector& found) {
     double most = 0;
     for (Eigen::Index j = 0; j < found.size(); ++j)

@@ -4,10 +4,10 @@
 
 namespace nurbeam {
 
-/// (unknowns x quantities) derivatives of quantities by each of the unknowns x, of which `steps` has how far
-/// to go for them at most: by differences with an error of the fourth order, less far where a quantity
-/// changes by more than a thousandth of itself, down to a thousandth of the step. Quantities that depend on
-/// few unknowns take few evaluations: halves of them that change nothing are left out whole.
+/// (unknowns x quantities) Derivatives of quantities by the unknowns x, by differences with an error of
+/// fourth order. `steps`: the largest difference for each unknown. A difference is reduced, down to a
+/// thousandth of its step, if a quantity changes by more than a thousandth of itself. Quantities that depend
+/// on few unknowns take few evaluations: halves of the unknowns that change nothing are skipped.
 Eigen::MatrixXd rates_by_unknowns(const std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>& quantities,
                                   const Eigen::VectorXd& x, const Eigen::VectorXd& steps);
 

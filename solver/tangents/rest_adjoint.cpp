@@ -10,8 +10,8 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// So large, as errors are of the fourth order, that round-off is small beside derivatives by single
-// coordinates, which nearly cancel in those of a shape that hardly strains.
+// Relative difference of an unknown. As errors are of fourth order it can be so large that round-off stays
+// small. Derivatives by single coordinates nearly cancel in those of a shape that hardly strains.
 constexpr double part_of_size = 1e-4;
 
 Vector steps_of(const State& rest, const Vector& scale) {

@@ -14,14 +14,14 @@ namespace {
 using Columns = MotionTangents::Matrix;
 using Tangent = Eigen::SparseMatrix<double>;
 
-// Both of one pattern.
+// Adds a matrix times a factor to one with the same pattern.
 void add(double factor, const Tangent& part, Tangent& sum) {
   using Values = Eigen::ArrayXd;
   Eigen::Map<Values>(sum.valuePtr(), sum.nonZeros()) +=
       factor * Eigen::Map<const Values>(part.valuePtr(), part.nonZeros());
 }
 
-// The rows and columns of coordinates of a matrix times columns for these.
+// The block of coordinates of a matrix times columns.
 Columns product(const Tangent& matrix, const Columns& columns) {
   Columns padded = Columns::Zero(matrix.cols(), columns.cols());
   padded.topRows(columns.rows()) = columns;
@@ -29,7 +29,7 @@ Columns product(const Tangent& matrix, const Columns& columns) {
   return whole.topRows(columns.rows());
 }
 
-// Each with its factor.
+// The states whose residuals make up rho, each with its factor.
 std::vector<std::pair<State, double>> parts_of_rho(const SecondOrderSystem& system, double h,
                                                    const Eigen::VectorXd& smoothed, const State& state) {
   std::vector<std::pair<State, double>> parts{{state, 1}};
@@ -82,7 +82,8 @@ StartTangent::StartTangent(const SecondOrderSystem& system, double h, const std:
 }
 
 double small_part(const SecondOrderSystem& system, const Eigen::VectorXd& d) {
-  constexpr double small = 1e-5;  // of the coordinates' sizes: its square counts, and round-off over it
+  constexpr double small = 1e-5;  // relative to the coordinates' sizes: its square counts as an error, and
+                                  // round-off is divided by it
   const double size = d.cwiseQuotient(system.coordinate_scale()).lpNorm<Eigen::Infinity>();
   return size > small ? small / size : 1;
 }

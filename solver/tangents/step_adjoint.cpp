@@ -10,8 +10,8 @@ namespace {
 
 using Adjoints = MotionTangents::Matrix;
 
-// Subtracts the transpose of what a matrix does to its first columns, as many as `from` has rows, in `count`
-// columns of both.
+// Subtracts products of a transposed matrix with columns of `to`, in `count` columns from `first` on. The
+// matrix enters with its first columns, as many as `from` has rows.
 template <int count>
 void subtract_some(const Eigen::SparseMatrix<double>& matrix, const Adjoints& to, Eigen::Index first,
                    Adjoints& from) {
@@ -57,7 +57,7 @@ void StepAdjoint::take(const State& before, const IntegratorHistory& history, co
 }
 
 void StepAdjoint::go_on() {
-  constexpr double same = 1e-6;  // but for round-off of times
+  constexpr double same = 1e-6;  // relative, for the round-off of times
   const double h = step().h;
   present_ = 1 - present_;
   factors_are_own_ = false;
@@ -86,7 +86,8 @@ bool StepAdjoint::factorise() {
   return has_factors_ = factors_are_own_ = solver_.factorise(transposed_);
 }
 
-// Factors take as long as some twenty solutions.
+// Solves with the step's matrix: few right-hand sides by corrections, as a factorisation takes as long as
+// some twenty solutions.
 bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
   constexpr Eigen::Index few = 2;
   if (rhs.cols() > few) {
@@ -104,7 +105,7 @@ bool StepAdjoint::solve(const Matrix& rhs, Matrix& x) {
   return true;
 }
 
-// Takes what a parabola through the last three solutions leads to, and corrects it.
+// Predicts a solution by a parabola through the last three, and corrects it.
 bool StepAdjoint::solve_from_last(const Eigen::VectorXd& rhs, Solved& solved) {
   constexpr double tolerance = 1e-8;
   auto& [last, before, earlier, contraction] = solved;
@@ -131,13 +132,13 @@ MotionTangents StepAdjoint::start(const MotionTangents& end, const Matrix& multi
   const auto& [alpha_m, alpha_f, beta, gamma, error] = step().parameters;
   const double h = step().h;
   MotionTangents start = MotionTangents::zero(end.q.rows(), end.lambda.rows(), end.parameters());
-  // By what the step predicts.
+  // Derivatives by the prediction of the step.
   start.q = end.q;
   subtract_transposed(step().stiffness, multipliers, start.q);
   Matrix v = end.v;
   if (step().damped) subtract_transposed(step().damping, multipliers, v);
   const Matrix still = end.algorithmic_acceleration + end.jerk / h + h * h * beta * start.q + h * gamma * v;
-  // By what it begins with.
+  // Derivatives by the start of the step.
   const Matrix algorithmic =
       -alpha_m / (1 - alpha_m) * still - end.jerk / h + h * h * (0.5 - beta) * start.q + h * (1 - gamma) * v;
   start.v = h * start.q + v;
@@ -145,7 +146,7 @@ MotionTangents StepAdjoint::start(const MotionTangents& end, const Matrix& multi
   (step().start == Start::afresh ? start.a : start.algorithmic_acceleration) += algorithmic;
   if (step().start == Start::moved) start.jerk = step().lag() * (h - step().last_step) * algorithmic;
   if (later.size() == 0) return start;
-  // By its length.
+  // Derivatives by the length of the step.
   start.t = end.t - later.transpose() * multipliers;
   Eigen::RowVectorXd by_length = start.t + end.last_step;
   by_length += step().q_by_length().transpose() * start.q + step().v_by_length().transpose() * v;

@@ -7,32 +7,32 @@
 
 namespace nurbeam {
 
-/// Steps of generalized-alpha with one system, each linearised where it has ended, as by StepTangent, whose
-/// transpose this is: derivatives of many quantities by a motion, and by what generalized-alpha keeps between
-/// its steps, from the end of a step back to its start, all with one matrix.
+/// The adjoint of steps of generalized-alpha with one system, each linearised at its end: the transpose of
+/// StepTangent. It carries derivatives of many quantities by a motion, and by the data that generalized-alpha
+/// keeps between steps, from the end of a step back to its start, all with one matrix.
 class StepAdjoint {
  public:
   using Matrix = MotionTangents::Matrix;
 
-  /// `system` must outlive it.
+  /// `system` must outlive this object.
   StepAdjoint(const GeneralizedAlpha& settings, const SecondOrderSystem& system);
 
-  /// Takes the next step as StepTangent does. Meanwhile, and until `go_on`, all else is of the one before, by
-  /// another thread too.
+  /// Takes the next step as StepTangent does. Until `go_on`, all other functions belong to the step before;
+  /// another thread may call them meanwhile.
   void take(const State& before, const IntegratorHistory& history, const State& after, bool repeated);
-  /// To the step that has been taken.
+  /// Goes on to the step that has been taken.
   void go_on();
-  /// How the residual at `after` changes with q, constraints below (n + m).
+  /// The derivative of the residual at `after` by q, constraints below (n + m).
   const Eigen::SparseMatrix<double>& stiffness() const { return step().stiffness; }
 
-  /// Finds (n + m) x quantities `mu` of the step: the quantities change by -mu . dR where the residual at its
-  /// end does by dR while q, v, a and lambda stay. `end`: their derivatives by what the step ends with, a
-  /// column for each. Where these are few, by the factors of a step that has been solved before, as long as
-  /// they serve. Returns false where the step's matrix is not regular.
+  /// Finds the multipliers `mu` of the step, (n + m) x quantities: the quantities change by -mu . dR if the
+  /// residual at its end changes by dR at fixed q, v, a and lambda. `end`: derivatives of the quantities by
+  /// the end of the step, a column for each. Few quantities use the factors of an earlier step as long as
+  /// these serve. Returns false where the step's matrix is not regular.
   [[nodiscard]] bool find_multipliers(const MotionTangents& end, Matrix& mu);
-  /// The derivatives by what the step begins with. Its length changes by `by_time` of what t does at its
-  /// start, and the residual at `after` by `later` (n + m) with t; where that is empty
-  /// nothing changes times, and what they would do is left out.
+  /// The derivatives by the start of the step. The step's length changes by `by_time` times the change of t
+  /// at its start, and the residual at `after` by `later` (n + m) with t. With an empty `later` times do not
+  /// change, and their effect is left out.
   MotionTangents start(const MotionTangents& end, const Matrix& multipliers, double by_time,
                        const Eigen::VectorXd& later) const;
 
@@ -47,14 +47,14 @@ class StepAdjoint {
 
   const LinearStep& step() const { return steps_[present_]; }
 
-  std::array<LinearStep, 2> steps_;  // the present one, and the next
+  std::array<LinearStep, 2> steps_;  // present step and next one
   std::size_t present_ = 0;
   Eigen::SparseMatrix<double> transposed_;
-  std::vector<int> values_;  // of each value in transposed_, that of the matrix
+  std::vector<int> values_;  // per value in transposed_: index of the matrix's value
   KktSolver solver_;
-  bool has_factors_ = false;      // of this step or of one gone over before
-  bool factors_are_own_ = false;  // of this step
-  std::vector<Solved> solved_;    // of each quantity, where they are few: for it, one after the other
+  bool has_factors_ = false;      // factors of this step or of one visited before
+  bool factors_are_own_ = false;  // factors of this step
+  std::vector<Solved> solved_;    // per quantity, if they are few: its last solutions
 };
 
 }  // namespace nurbeam

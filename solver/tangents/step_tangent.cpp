@@ -8,7 +8,7 @@ namespace nurbeam {
 
 namespace {
 
-// Numbers of as many parameters, side by side.
+// Lanes: numbers of four parameters, or of one, side by side.
 struct Four {
   using Side = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 };
@@ -28,7 +28,7 @@ NURBEAM_WITHIN const typename Lanes::Side& side(const double* at) {
 template <class Lanes>
 constexpr Eigen::Index width = sizeof(typename Lanes::Side) / sizeof(double);
 
-// Factors of what a step begins with in what it ends with.
+// Factors of the start of a step in its predicted end.
 struct Prediction {
   double h, a_of_start, a_of_before, q_of_start, q_of_end, v_of_start, v_of_end;
 
@@ -48,7 +48,7 @@ struct Prediction {
   }
 };
 
-// Factors of a correction of q in what follows it.
+// Factors of a correction of q in the quantities that follow it.
 struct Correction {
   double acceleration, v, a, per_step;
 
@@ -156,7 +156,7 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
     end.v.noalias() += step_.v_by_length() * step;
   }
 
-  // The correction of q for which the residual stays zero, and what follows it.
+  // The correction of q for which the residual stays zero, and the quantities that follow it.
   Matrix rhs(n + m, start.parameters()), x;
   find_rhs(end, dynamics, constraints, rhs);
   solver_.solve(rhs, x);
@@ -166,7 +166,7 @@ MotionTangents StepTangent::end(const MotionTangents& start, const Eigen::RowVec
   return end;
 }
 
-// The end with that algorithmic acceleration there for which a is zero: M has no part in the residual.
+// Predicts the end with the algorithmic acceleration for which a is zero: M then has no part in the residual.
 NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::predict(const MotionTangents& start, const Matrix& algorithmic,
                                                       MotionTangents& end) const {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
@@ -183,7 +183,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::predict(const MotionTangents& star
   of.find<One>(start, algorithmic, end, even, size);
 }
 
-// What follows the correction of q, the first rows of x.
+// Corrects the end by the correction of q, the first rows of x.
 NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::correct(const Matrix& x, const Matrix& algorithmic,
                                                       MotionTangents& end) const {
   const auto& [alpha_m, alpha_f, beta, gamma, error] = step_.parameters;
@@ -197,8 +197,8 @@ NURBEAM_FOR_EVERY_PROCESSOR void StepTangent::correct(const Matrix& x, const Mat
   of.make<One>(x, algorithmic, end, even, size);
 }
 
-// -(change + D v + K q) with the rows of constraints, G q, of so many times as many parameters as there are
-// lanes, from the `first` one on; the rows of the dynamics are scaled as the matrix is.
+// Finds -(change + D v + K q), with the rows of constraints, G q, for `times` times as many parameters as
+// there are lanes, from the `first` one on. The rows of the dynamics are scaled as the matrix is.
 template <class Lanes, int times>
 NURBEAM_WITHIN void StepTangent::find_rhs_of(const MotionTangents& end, const Matrix& dynamics,
                                              const Matrix& constraints, Eigen::Index first,
@@ -218,7 +218,7 @@ NURBEAM_WITHIN void StepTangent::find_rhs_of(const MotionTangents& end, const Ma
     }
     for (int k = starts[row]; step_.damped && k < starts[row + 1]; ++k) {
       const auto [column, value] = entries_[k];
-      if (D[value] == 0) continue;  // most are: elements with fixed ends, without damping
+      if (D[value] == 0) continue;  // most are zero: elements with fixed ends, without damping
       for (int c = 0; c < times; ++c)
         sum[c] += D[value] * side<Lanes>(v + column * stride + c * width<Lanes>);
     }

@@ -4,9 +4,9 @@
 
 namespace nurbeam {
 
-/// The derivatives by many parameters of a motion and of what generalized-alpha keeps between its steps.
+/// Derivatives of a motion, and of the data that generalized-alpha keeps between steps, by many parameters.
 struct MotionTangents {
-  /// Of vectors, a column for each parameter.
+  /// Derivatives of vectors, a column for each parameter.
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   Eigen::RowVectorXd t, last_step;
@@ -16,35 +16,35 @@ struct MotionTangents {
   static MotionTangents zero(Eigen::Index coordinates, Eigen::Index constraints, Eigen::Index parameters);
 
   Eigen::Index parameters() const { return t.size(); }
-  /// By one parameter, of t, q, v, a and lambda; what else a state has is left alone.
+  /// The tangent by one parameter, of t, q, v, a and lambda; other members of the state keep their defaults.
   State of(Eigen::Index parameter) const;
-  /// Adds a part of the tangent of a state to that by one parameter.
+  /// Adds `part` times the tangent of a state to the tangent by one parameter.
   void move(Eigen::Index parameter, const State& tangent, double part);
-  /// That by one parameter where an integrator starts afresh.
+  /// Sets the tangent by one parameter where an integrator starts afresh.
   void start_afresh(Eigen::Index parameter, const State& tangent);
-  /// Those by all where one starts afresh from where they are.
+  /// Sets the tangents by all parameters where an integrator starts afresh from the present ones.
   void start_afresh();
 };
 
-/// Steps of generalized-alpha with one system, each linearised where it has ended: the tangents of many
-/// parameters from its start to its end, all with one matrix, which is taken and factorised there.
+/// The tangent of steps of generalized-alpha with one system, each linearised at its end: tangents of many
+/// parameters go from its start to its end, all with one matrix, which is taken and factorised at the end.
 class StepTangent {
  public:
   using Matrix = MotionTangents::Matrix;
 
-  /// `system` must outlive it.
+  /// `system` must outlive this object.
   StepTangent(const GeneralizedAlpha& settings, const SecondOrderSystem& system);
 
-  /// Takes a step from `before`, with that history, to `after`, which must be converged. `repeated`: as by
-  /// Integrator::repeat.
+  /// Takes a step from `before`, with its history, to `after`, which must be converged. `repeated`: the step
+  /// was taken by Integrator::repeat.
   void take(const State& before, const IntegratorHistory& history, const State& after, bool repeated);
-  /// How the residual at `after` changes with q, constraints below (n + m).
+  /// The derivative of the residual at `after` by q, constraints below (n + m).
   const Eigen::SparseMatrix<double>& stiffness() const { return step_.stiffness; }
-  /// Whether the matrix of that step is regular.
+  /// Factorises the matrix of the step; returns whether it is regular.
   [[nodiscard]] bool factorise();
-  /// Precondition: factorise() returned true. The tangents at its end, where its length changes by `step`, of
-  /// each parameter. `dynamics` (n), `constraints` (m), a column for each: how the residual at `after`
-  /// changes with the parameter itself, by the system and by t, while q, v, a and lambda stay.
+  /// The tangents at the end of the step. `step`: derivatives of its length by each parameter. `dynamics`
+  /// (n), `constraints` (m), a column for each: derivatives of the residual at `after` by the parameter
+  /// itself, in the system and in t, at fixed q, v, a and lambda. Precondition: factorise() returned true.
   MotionTangents end(const MotionTangents& start, const Eigen::RowVectorXd& step, const Matrix& dynamics,
                      const Matrix& constraints) const;
 
@@ -63,8 +63,8 @@ class StepTangent {
                 Matrix& rhs) const;
 
   LinearStep step_;
-  std::vector<Entry> entries_;   // of the columns of coordinates, row by row
-  std::vector<int> row_starts_;  // of each row in `entries_`, and the end
+  std::vector<Entry> entries_;   // entries in the columns of coordinates, row by row
+  std::vector<int> row_starts_;  // start of each row in `entries_`, and the end
   KktSolver solver_;
 };
 
