@@ -41,9 +41,9 @@ class ElementBatch;
 /// The data of one element that do not change between length-control events.
 ///
 /// All forces are the Euler-Lagrange expressions of one discrete Lagrangian: T - U of the fields of
-/// ElementBasis, summed over Gauss points that sit at fixed fractions of the element's reference arc length
-/// (of each part, where the element spans breaks of the drawing). With moving ends this is form V of
-/// docs/theory.md.
+/// ElementBasis, summed over Gauss points. The points sit at fixed fractions of the element's reference arc
+/// length, or of each part's where the element spans breaks of the drawing. With moving ends this is form V
+/// of docs/theory.md.
 ///
 /// Damping has three parts: c times the strain rates; alpha rho A v against the material velocity v; and beta
 /// S dr_s/dt on r_s at fixed material. The stiffness S of tension is EA times the mean strain, and 0 in

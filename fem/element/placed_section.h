@@ -4,8 +4,8 @@
 
 namespace nurbeam {
 
-/// The section of an element with torsion at a place that may move over the material, as a function of the
-/// element's coordinates (TwistLayout) and, last, the place.
+/// The section of an element with torsion at a place that may move over the material. It is a function of the
+/// element's coordinates (TwistLayout) and, last, of the place.
 ///
 /// The object is made for given places and holds series in them. Third derivatives by the places alone are
 /// missing in scalars that carry them.

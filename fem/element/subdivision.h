@@ -18,8 +18,7 @@ struct RancfElement {
 ///
 /// The shape is unchanged, and so is r_x everywhere: r_xB of the left part is r_xA of the right one. Throws
 /// std::invalid_argument unless 0 < u_j < 1. The matrices are as printed, but positions are taken relative to
-/// r_A (rows of positions sum to 1, rows of slopes to 0), so that slopes keep their digits far from the
-/// origin.
+/// r_A (rows of positions sum to 1, rows of slopes to 0). Slopes so keep their digits far from the origin.
 std::pair<RancfElement, RancfElement> split(const RancfElement& element, double u_j);
 /// The n parts of an element at n - 1 increasing parameters in (0, 1), Eq. (3) of [S] with i = 1..n. Throws
 /// std::invalid_argument when the parameters are not increasing in (0, 1).

@@ -49,10 +49,10 @@ struct SectionPoint {
 /// the tangent. Their forces add to those of a BeamElement<3> whose axis alone does not bend. With moving
 /// ends both have form V of docs/theory.md.
 ///
-/// Inside the element the section is carried from end A by parallel transport, turned by the drawn twist and
-/// by the twist since the drawing, theta(xi) = theta_B xi + beta 4 xi (1 - xi), xi = (s - s_A)/h. So the
-/// strain of twist is theta'/h, only relative directions count, and the drawn shape is free of stress to
-/// round-off (docs/theory.md, "Torsion").
+/// Inside the element the section is carried from end A by parallel transport. It is turned by the drawn
+/// twist and by the twist since the drawing, theta(xi) = theta_B xi + beta 4 xi (1 - xi), xi = (s - s_A)/h.
+/// So the strain of twist is theta'/h, only relative directions count, and the drawn shape is free of stress
+/// to round-off (docs/theory.md, "Torsion").
 class TwistElement {
  public:
   using Coordinates = TwistLayout::Coordinates;
@@ -86,8 +86,8 @@ class TwistElement {
   Matrix tangent(const TwistState& x, const TangentWeights& w) const;
   TwistEnergy energy(const TwistState& x) const;
 
-  /// Whether a step may end in this state: no tangent is near the opposite of its chart's tangent or of the
-  /// tangent at A, and the turn can still be told from the next one by its reference.
+  /// Whether a step may end in this state: No tangent may be near the opposite of its chart's tangent or of
+  /// the tangent at A. The turn must be near enough to its reference to be told from the next one.
   bool admissible(const Coordinates& q) const;
   /// Whether the charts should soon be replaced by those of the present sections.
   bool should_recentre(const Coordinates& q) const;

@@ -12,8 +12,8 @@ struct AxialPoint {
 
 /// The axial law F(e) [N] of the engineering strain e = |r_s|/lambda_0 - 1 and its energy W(e) = int F de
 /// [J/m], as an AxialPoint. `strain` is eps less the free strain (lambda_0^2 - 1)/2. A section that is
-/// compressed to less than a tenth of its length goes on with the force and the stiffness that it has there:
-/// |r_s| = 0 is no singular point.
+/// compressed to less than a tenth of its length keeps the force and the stiffness of that length. So |r_s| =
+/// 0 is no singular point.
 ///
 ///   r^2 = 1 + 2 strain/lambda_0^2,  e = r - 1,  psi = lambda_0 W,  psi' = F/(lambda_0 r),
 ///   psi'' = (F' - F/r)/(lambda_0^3 r^2)

@@ -69,12 +69,13 @@ inline constexpr double meeting_distance = 0.05;
 /// Distance of two riders on a rigid guide at which they count as having met, in home intervals, as there are
 /// no elements between them.
 inline constexpr double touching_distance = 3e-6;
-/// Nearness to a permanent node, in home element lengths, at which a rider becomes a point (or the node gives
-/// way), and the larger one at which it becomes a node again.
+/// Nearness to a permanent node, in home element lengths, at which a rider becomes a point, or the node gives
+/// way. The second, larger one is that at which it becomes a node again.
 inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
 
-/// Whether a rider at s is carried as a point: because it is described so, its beam is a rigid guide, its
-/// body is too light for a node, or a node that it passes as a point is within `reach` home element lengths.
+/// Whether a rider at s is carried as a point: it is described so, its beam is a rigid guide, or its body is
+/// too light for a node. So is a rider with a node that it passes as a point within `reach` home element
+/// lengths.
 bool near_as_point(const Structure& structure, const Rider& rider, double s, double reach);
 
 /// The drawn mesh with every rider at its start: the home node nearest to it gives way to the moving

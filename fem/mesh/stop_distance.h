@@ -12,9 +12,9 @@ inline bool is_in_place(const Mesh& mesh, const Stop& stop) {
 }
 
 /// The distance d of a stop whose bodies are on their beams, in one mesh. For one body, and for two at least
-/// twice their gap apart, d is measured along the beam. Two bodies nearer together on a beam that deforms are
-/// measured along the line between them, plus the excess of the drawn arc over its chord there. They then
-/// press against each other, and not each against the beam. On a rigid guide both measures agree.
+/// twice their gap apart, d is measured along the beam. For two bodies nearer together on a beam that
+/// deforms, d is the line between them plus the excess of the drawn arc over its chord there. They then press
+/// against each other, and not each against the beam. On a rigid guide both measures agree.
 ///
 /// The structure must outlive this object. Coordinates: the two places (-1 for none), then the positions of
 /// both bodies where d depends on them.

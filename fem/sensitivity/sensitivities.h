@@ -52,10 +52,10 @@ struct NeighbourPair {
 ///   - A step that the system's step limit has shortened is longer as the limit is.
 ///
 /// dR is half the difference of the residual of the neighbours at the state of the run, where they differ,
-/// with riders at corresponding places. At the same place in metres of a curve that has become longer before
-/// it, a moving element would be strained so far that the cube of its strain counts, which K does not
-/// contain. Decisions of the run (steps of its error control, times of changes of the mesh) hold for the
-/// neighbours too: derivatives are those of the discrete motion with these decisions.
+/// with riders at corresponding places. If a curve has become longer before a moving element, the same place
+/// in metres would strain the element much. The cube of its strain would count, which K does not contain.
+/// Decisions of the run (steps of its error control, times of changes of the mesh) hold for the neighbours
+/// too: derivatives are those of the discrete motion with these decisions.
 class Sensitivities final : public RunFollower {
  public:
   /// Throws std::invalid_argument for an integrator other than generalized-alpha, and for models with parts

@@ -110,8 +110,8 @@ class Assembly final : public SecondOrderSystem {
   /// Forces and couples of forces and bodies on points of beams; those of bodies and supports at nodes act at
   /// the nodes.
   std::vector<PointAction> actions(const State& state) const;
-  /// Moves bodies that stand apart from their nodes to where the nodes, or the sections that they follow,
-  /// carry them, and gives them the velocities there.
+  /// Moves bodies that stand apart to where their nodes, or the sections that they follow, carry them, and
+  /// gives them the velocities there.
   void carry_bodies(State& state) const;
   /// Whether the forces of an element are those of form P, for comparison.
   bool is_form_p(const MeshElement<D>& e) const {

@@ -9,8 +9,8 @@ State drawn_state(const BeamSystem& system);
 /// beam with its initial speed; bodies without a rider have their own.
 void start_moving(const BeamSystem& system, State& state);
 
-/// Moves bodies that stand apart from their nodes to where the nodes, or the sections that they follow, carry
-/// them, and gives them the velocities there.
+/// Moves bodies that stand apart to where their nodes, or the sections that they follow, carry them, and
+/// gives them the velocities there.
 void carry_bodies(const BeamSystem& system, State& state);
 
 }  // namespace nurbeam

@@ -73,9 +73,10 @@ Eigen::Matrix4d span_control_points(const BeamSystem& system, const State& state
 double span_twist(const BeamSystem& system, const State& state, int span);
 
 /// Contribution of the element in a span to the estimated error of positions [m]: its length times its
-/// quartic strain times quartic_strain_to_error. The factor was measured with the mean over the elements.
-/// Cantilevers under loads of 1 and 10 EI/L^2, a beam rolled up to a circle and a cable of twice its span
-/// have errors of 1.1 to 2.4 times the quartic strain times the length, on meshes of 5 to 40 elements.
+/// quartic strain times quartic_strain_to_error. The factor was measured with the mean over the elements. The
+/// models were cantilevers under loads of 1 and 10 EI/L^2, a beam rolled up to a circle and a cable of twice
+/// its span, on meshes of 5 to 40 elements. Their errors are 1.1 to 2.4 times the quartic strain times the
+/// length.
 ///
 /// Where the drawing's parameter is uneven, a second term is added: the length of the beam times the angle by
 /// which the element turns too little. This angle is its curvature times its length times the part of the

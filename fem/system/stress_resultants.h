@@ -13,7 +13,7 @@ struct StressResultants {
 };
 
 /// The stress resultants in one span of the mesh. At its ends they satisfy the equilibrium of its element,
-/// with inertia, damping and loads, so that they balance reactions, bodies and loads at nodes to round-off.
+/// with inertia, damping and loads. So they balance reactions, bodies and loads at nodes to round-off.
 ///
 /// Between the ends the couple m is the cubic with m_s = -r_s x n (n the force) at both, which is exact in a
 /// straight beam under a constant load; point forces inside are taken out first. Couples are as accurate as

@@ -68,8 +68,8 @@ class BandedLu {
   int half_bandwidth_ = 0;
   int padded_ = 0;  ///< number of unknowns, including those that fill the last block
   /// A block of four on the diagonals: D of U and C of L. Beside it stand E of U to its right and B of L to
-  /// its left. Stored are the columns of the inverses and of their products with E and B, so that one block
-  /// waits for the next no longer than one product takes.
+  /// its left. Stored are the columns of the inverses and of their products with E and B. So one block waits
+  /// for the next no longer than one product takes.
   ///
   /// Where rows are exchanged the elimination has to wait for each row. The members then hold C and B instead
   /// of C^-1 and C^-1 B, and the next block holds its B too.

@@ -11,9 +11,10 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-// Excess of the factors of columns. If one column of a constraint outweighs all others by a large ratio, its
-// entries in B are negligible beside theirs, and are round-off, as of the curvature of a straight guide. The
-// factor is then too large by this ratio. Columns that are round-off of the constraint itself do not count.
+// Excess of the factors of columns. One column of a constraint may outweigh all others by a large ratio. Its
+// entries in B are then negligible beside theirs, and are round-off, as of the curvature of a straight guide.
+// The factor is then too large by this ratio. Columns that are round-off of the constraint itself do not
+// count.
 Vector excess_of_columns(const Matrix& kkt, int n, const Vector& factor) {
   constexpr double nothing = 1e-13;    // part of a stiffness
   constexpr double round_off = 1e-14;  // part of a constraint

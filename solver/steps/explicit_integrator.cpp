@@ -158,9 +158,8 @@ struct ExplicitIntegrator::Implementation {
     const double end = state.t + step;
     if (!(step > 0) || !std::isfinite(end)) return report;
     trial = state;
-    // ARKODE 5.4 uses the last stage of a table with c = 1 there, such as the classical one, for the first
-    // stage of the next step, though it belongs to other q and v. That costs an order; a restart discards the
-    // stage.
+    // If a table ends with c = 1, as the classical one, ARKODE 5.4 uses its last stage for the first stage of
+    // the next step, though it belongs to other q and v. That costs an order; a restart discards the stage.
     if (std::exchange(must_restart, true) || is_fixed()) restart(trial);
     int failures = 0;  // in a row
     for (int i = 0; i < settings.max_steps; ++i) {

@@ -18,8 +18,8 @@ struct GeneralizedAlpha {
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
 /// and the factorised matrix between steps. The matrix is renewed where a correction is not at least ten
-/// times smaller than the one before (for the second one, two times), where the step's length changes, and
-/// after fifty steps. The system's moving part of the matrix is renewed in every step.
+/// times smaller than the one before (for the second one, two times). It is also renewed where the step's
+/// length changes, and after fifty steps. The system's moving part of the matrix is renewed in every step.
 ///
 ///   q' = q + h v + h^2 ((1/2 - beta) alg + beta alg'),   v' = v + h ((1 - gamma) alg + gamma alg'),
 ///   (1 - alpha_m) alg' + alpha_m alg = (1 - alpha_f) a' + alpha_f a,

@@ -73,9 +73,9 @@ struct ProjectionSolver {
   std::optional<NearKkt> near;  ///< for unknowns near some place
   NearSolver whole;
 };
-/// The velocity with M v + G' impulse = momentum and G v + rate = 0, where the velocities of the state
-/// already satisfy this except in the rows `around`, of coordinates and then multipliers. It is solved for
-/// near these rows, or everywhere where that does not suffice or `around` is empty.
+/// The velocity with M v + G' impulse = momentum and G v + rate = 0. The velocities of the state already
+/// satisfy this, except in the rows `around`, of coordinates and then multipliers. It is solved for near
+/// these rows, or everywhere where that does not suffice or `around` is empty.
 [[nodiscard]] Projection velocities_from_momentum(const SecondOrderSystem& system,
                                                   const Eigen::VectorXd& momentum,
                                                   const std::vector<int>& around, ProjectionSolver& solver,

@@ -195,8 +195,8 @@ bool NearKkt::answer(const Eigen::VectorXd& top, const Eigen::VectorXd& bottom, 
 }
 
 // Limits of rows that have faded. In rows of coordinates the limit is a small part of the open rows, or a
-// slight part of the closed forces there, over the root of the diagonal entries, so that forces and moments
-// compare. In rows of constraints it is a small part of the correction.
+// slight part of the closed forces there. Both are divided by the root of the diagonal entries, so that
+// forces and moments compare. In rows of constraints it is a small part of the correction.
 Eigen::ArrayXd NearKkt::faded(const Eigen::VectorXd& open, const Eigen::VectorXd& present,
                               const Eigen::VectorXd& correction) const {
   constexpr double small = 1e-4, slight = 1e-6;

@@ -8,8 +8,8 @@
 namespace nurbeam {
 
 /// The adjoint of steps of generalized-alpha with one system, each linearised at its end: the transpose of
-/// StepTangent. It carries derivatives of many quantities by a motion, and by the data that generalized-alpha
-/// keeps between steps, from the end of a step back to its start, all with one matrix.
+/// StepTangent. It carries derivatives of many quantities from the end of a step back to its start, all with
+/// one matrix: by the motion, and by the data that generalized-alpha keeps between steps.
 class StepAdjoint {
  public:
   using Matrix = MotionTangents::Matrix;

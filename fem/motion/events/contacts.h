@@ -19,8 +19,8 @@ struct ContactEvent {
   };
   Kind kind;
   int stop = -1;
-  /// For bodies that meet: their riders, the lead of the second over the first at that moment, and whether
-  /// the lead comes down to this value or up to it.
+  /// For bodies that meet: their riders, and the lead of the second over the first at that moment.
+  /// `from_more`: the lead comes down to this value, not up to it.
   std::pair<int, int> riders = {-1, -1};
   double lead = 0;  ///< [m]
   bool from_more = true;

@@ -5,9 +5,9 @@
 
 namespace nurbeam {
 
-/// Kink times [s], increasing: times at which a table of the model (of a load, a brake, a motion or a
-/// temperature) has a row, a body is released, or a moving load leaves its beam (the last moment there and
-/// one beyond). Smooth functions between them may have kinks there, so steps end there.
+/// Kink times [s], increasing: times at which a table of the model has a row (of a load, a brake, a motion or
+/// a temperature), or a body is released. A moving load that leaves its beam adds the last moment there and
+/// one beyond. Smooth functions between them may have kinks there, so steps end there.
 std::vector<double> kink_times(const BeamModel& model);
 
 /// End of a jump that begins at `time` [s]. It is the last of the times that follow within the resolution of

@@ -160,8 +160,8 @@ class Remap {
     return with_velocities(std::move(moved));
   }
 
-  // Makes one move of the free coordinates that takes the excess e away on the parabola of the potential
-  // energy, or leads to its lowest place, halved until |e| falls. Returns whether there is one; else nothing
+  // Makes one move of the free coordinates, halved until |e| falls. On the parabola of the potential energy
+  // it takes the excess e away, or leads to the lowest place. Returns whether there is one; else nothing
   // changes.
   bool move_towards(Transferred& next, int rings, const std::vector<int>& free, double& e) const {
     auto [move, mu] = move_of(next.state, free, e, std::nullopt);

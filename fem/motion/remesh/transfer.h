@@ -63,10 +63,10 @@ double closed_enough(const BeamSystem& from, const State& state);
 /// field on the balanced() shape. The energy that this changes is given to or taken from relative_motion().
 ///
 /// Where the relative motion is too slow, nodes restore the energy. On the interpolated() shape the nodes of
-/// new elements, and if need be their neighbours too, move by the least displacements in the mass norm that
-/// conserve the total energy to 1e-10 of the kinetic and strain energy. (As interpolated, a merged element
-/// carries axial strain that the two did not have; Ding & Ouyang choose weights instead, Eqs. 31-38.) The
-/// moves open no constraint. Where the energy cannot be reached, they bring it as near as they can.
+/// new elements move, and if need be their neighbours too. Their displacements are the least in the mass norm
+/// that conserve the total energy to 1e-10 of the kinetic and strain energy. (As interpolated, a merged
+/// element carries axial strain that the two did not have; Ding & Ouyang choose weights instead, Eqs. 31-38.)
+/// The moves open no constraint. Where the energy cannot be reached, they bring it as near as they can.
 ///
 /// Returns nullopt when the projection is singular or the constraints cannot be closed.
 std::optional<Transferred> projected(const BeamSystem& from, const State& state, const BeamSystem& to);

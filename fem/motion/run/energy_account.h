@@ -52,8 +52,8 @@ class EnergyAccount {
   void enter(Snapshot& snapshot) const;
   /// Records the energy errors and energy scales of a snapshot in the report.
   void record(const Snapshot& snapshot, SimulationReport& report);
-  /// The energy that has come from nowhere by this state, where it exceeds all energy of the motion and
-  /// `slight`, so that what follows would mean nothing; else nothing.
+  /// The energy that has come from nowhere by this state; nothing if it is below all energy of the motion, or
+  /// below `slight`. Beyond that the motion means nothing any more.
   std::optional<double> from_nowhere(const BeamSystem& system, const State& state,
                                      const SimulationReport& report, double slight) const;
 

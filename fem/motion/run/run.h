@@ -79,7 +79,7 @@ struct Run {
   /// The shortest time to follow: the next step of a method for stiff systems, else 0 [s].
   double shortest_time() const;
   /// The shortest step [s]. A step much shorter than the others would take the round-off of positions for
-  /// velocities, and the rest of time between an event and an output time is not worth a step.
+  /// velocities. Less time than this between an event and an output time is not worth a step.
   double resolution() const;
   double mechanical_energy() const;
 
