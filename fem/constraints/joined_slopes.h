@@ -11,7 +11,7 @@ namespace nurbeam {
 template <int D>
 struct PointPair {
   PointOnBeam<D> a, b;
-  std::vector<int> dofs;  ///< of the element of a, then of that of b
+  std::vector<int> dofs;  ///< coordinates of the element of a, then of the element of b
 
   PointPair(const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, int beam_a, double s_a, int beam_b,
             double s_b)

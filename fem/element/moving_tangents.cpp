@@ -1,5 +1,6 @@
-// The tangent of the force of an element whose ends move: over the points, the sum of the terms of inertia,
-// elasticity, load and damping, each by what acts on r, r_s and r_ss.
+// The tangent of the force of an element with moving ends: the sum over the points of the terms of inertia,
+// elasticity, load and damping. Each term is given by forces on r, r_s and r_ss.
+// Long because the terms are one sum over the points.
 #include <tuple>
 
 #include "fem/element/beam_element.h"
@@ -13,19 +14,19 @@ namespace {
 
 using Row = MovingRows::Row;
 
-// K = k df/dq + d df/dv + m df/da for the weights k, d, m of TangentWeights. With all rates weighted, one
-// increment of the coordinates is one of positions, velocities and accelerations: each field varies by one
-// number a node, as it is linear in the nodes, and by one vector a place.
+// The tangent K = k df/dq + d df/dv + m df/da for the weights k, d, m of TangentWeights. With all rates
+// weighted, one increment of the coordinates is one of positions, velocities and accelerations. Each field
+// varies by one number a node, as it is linear in the nodes, and by one vector a place.
 //
 //   e, e_rate, e_second  nodes (D x 4) with their rates        w, w_rate      rates of the places s_a, s_b
 //   r, rs, rss           the field and its derivatives along s v              of the material, [m/s]
 //   A, s                 weight and place of the point         x_rate         dx/dt at the point, which moves
-//   x_e, x_i             what x varies by with the nodes, (4), and with place i, by the weighted increment;
+//   x_e, x_i             derivatives of x by the nodes (4) and by place i, in the weighted increment;
 //   s_i, A_i, r.first    not weighted: derivatives by place i
 //
-// The force on node n is on_r R_n + on_rs R_n' + on_rss R_n'' with the rows R of the shape functions; that on
-// place i is on_r . r_i + on_rs . rs_i + on_rss . rss_i - pull s_i - lagrangian A_i (a place that moves
-// leaves the material behind, and a weight that grows takes in more of it).
+// The force on node n is on_r R_n + on_rs R_n' + on_rss R_n'' with the rows R of the shape functions. The
+// force on place i is on_r . r_i + on_rs . rs_i + on_rss . rss_i - pull s_i - lagrangian A_i: a moving place
+// leaves the material behind, and a growing weight takes in more of it.
 template <int D>
 class TangentSum {
  public:
@@ -100,14 +101,14 @@ class TangentSum {
     return {by[0] * w[0] + by[1] * w[1], by[1] * w[0] + by[2] * w[1]};
   }
 
-  // Where a point is and how it moves.
+  // Place, fields and motion of a point.
   struct Point {
     const MovingRows& rows;
     Field r, rs, rss;
     std::array<double, 2> s_i, A_i;
     double A, s_rate, s_second, A_rate;
-    Row r1, rs1;                     // rates of the rows of r and r_s,
-    std::array<Row, 2> r1_i, rs1_i;  // and their derivatives by the places
+    Row r1, rs1;                     // rates of the rows of r and r_s
+    std::array<Row, 2> r1_i, rs1_i;  // their derivatives by the places
     Vector rs_rate, v;
     Row rs_rate_e, v_e;
     Vectors r1_along, rs_rate_i, v_i;
@@ -142,8 +143,9 @@ class TangentSum {
     }
   };
 
-  // What acts at a point on r, r_s and r_ss, what that varies by with place j, what the force on place i
-  // varies by with these fields of the nodes, and what the Lagrangian varies by with place j.
+  // Forces at a point on r, r_s and r_ss, with their derivatives by place j. by_r, by_rs and by_rss:
+  // derivatives of the force on place i by these fields of the nodes. lagrangian: derivatives of the
+  // Lagrangian by place j.
   struct Action {
     Vector on_r, on_rs, on_rss;
     Vectors on_r_i, on_rs_i, on_rss_i;
@@ -151,7 +153,7 @@ class TangentSum {
     std::array<double, 2> lagrangian;
   };
 
-  // m (A dv/dt + dA/dt v) on r, and ds/dt m A v on r_s; sets all of the action.
+  // Sets all of the action: m (A dv/dt + dA/dt v) on r, and ds/dt m A v on r_s.
   void add_inertia(const Point& p, Action& acts) {
     const auto& [e, e_rate, e_second, w, w_rate] = motion_;
     const MovingRows& rows = p.rows;
@@ -200,7 +202,7 @@ class TangentSum {
     }
   }
 
-  // A dU/dr_s on r_s and A dU/dr_ss on r_ss for the energy U(r_s, r_ss, kappa_0) of the law.
+  // Adds A dU/dr_s on r_s and A dU/dr_ss on r_ss, for the energy U(r_s, r_ss, kappa_0) of the law.
   void add_elastic(const Point& p, Action& acts) {
     const MovingRows& rows = p.rows;
     const double k = t_.stiffness, A = p.A;
@@ -221,7 +223,7 @@ class TangentSum {
       acts.by_rss[i] += by_t;
       acts.lagrangian[i] -=
           k * (g_s.dot(p.rs.first[i]) + g_t.dot(p.rss.first[i]) - elastic.moment * rows.kappa0_first[i]);
-      // The moment on kappa_0, which the places change.
+      // The moment on kappa_0, which changes with the places.
       const double moment_i =
           k * (elastic.moment_gradient.dot(z_i) - elastic.moment_slope * rows.kappa0_first[i]);
       for (const int place : {0, 1})
@@ -230,7 +232,7 @@ class TangentSum {
     }
   }
 
-  // A dead load on r.
+  // Adds a dead load on r.
   void add_load(const Point& p, Action& acts) const {
     const double k = t_.stiffness;
     acts.on_r -= p.A * load_;
@@ -241,7 +243,7 @@ class TangentSum {
     }
   }
 
-  // From the point to the nodes and the places.
+  // Adds the action of a point to the matrices of the nodes and the places.
   void add_action(const Point& p, const Action& acts) {
     const MovingRows& rows = p.rows;
     const double k = t_.stiffness;
@@ -280,7 +282,7 @@ class TangentSum {
     }
   }
 
-  // I of AxialSums, its gradient and second derivatives.
+  // Adds to I of AxialSums, its gradient and second derivatives.
   void add_stretch(const Point& p) {
     const auto& [rows, rs, A, A_i] = std::tie(p.rows.rs, p.rs, p.A, p.A_i);
     const double eps = (rs.value.squaredNorm() - 1) / 2;

@@ -37,9 +37,9 @@ class RollInertia {
     const double w = spin(at, state);
     sum.kinetic += inertia_ * w * w / 2;
   }
-  /// w [rad/s].
+  /// Spin w [rad/s].
   double spin(const MeshedBeams<3>& at, const State& state) const;
-  /// Adds the generalised momentum of a roll with that spin.
+  /// Adds the generalised momentum of a roll with this spin [rad/s].
   void add_momentum(const MeshedBeams<3>& at, const State& state, double spin,
                     Eigen::Ref<Eigen::VectorXd> p) const;
   /// Adds the couple on the beam where the body is carried as a point.

@@ -7,7 +7,7 @@
 
 namespace nurbeam {
 
-/// How a rider is carried at present.
+/// The way in which a rider is carried at present.
 enum class Carried {
   node,     ///< a moving node of the beam: the elements on both sides change length
   point,    ///< a point sigma of the mesh, r_body = r(sigma): near an end of the beam or a permanent node
@@ -52,7 +52,7 @@ struct MeshPlan {
   double spin(int rider) const { return rider < static_cast<int>(spins.size()) ? spins[rider] : 0; }
 };
 
-/// What becomes of a home node when a rider comes to it.
+/// The passing of a home node, when a rider comes to it.
 enum class Passing {
   as_node,   ///< the node is removed before the rider, and returns behind it
   as_point,  ///< the node stays: the rider passes it as a point of the mesh

@@ -40,7 +40,7 @@ std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& div
 // A load across a taut string makes a kink, rounded within the reach sqrt(EI/S) of bending. Where elements
 // are much longer than this reach, a continuous slope would be the coarser model. No body slides over a kink.
 void allow_kinks(BeamModel& model, int b) {
-  constexpr double short_reach = 0.02;  // of an element
+  constexpr double short_reach = 0.02;  // part of an element's length
   Beam& beam = model.beams[b];
   const double tension = beam.properties.drawn_tension();
   const bool slides = std::any_of(model.riders.begin(), model.riders.end(),

@@ -22,7 +22,7 @@ enum class MergeRule {
   paper,     ///< Eqs. 31-38 of Ding & Ouyang, for comparison
   ones       ///< all ones, for comparison
 };
-/// How the forces on moving elements follow from the fields (theory.md: forms V and P).
+/// The rule by which forces on moving elements follow from the fields (theory.md: forms V and P).
 enum class Form {
   variational,  ///< Euler-Lagrange expressions of T - U with moving limits: conserves energy
   virtual_work  ///< form P, the papers', for comparison: fem/comparison/virtual_work.h

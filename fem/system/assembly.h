@@ -48,7 +48,7 @@ class Assembly final : public SecondOrderSystem {
   struct Rows {
     int first = 0, count = 0;
   };
-  /// Those of constraint i of the model.
+  /// The rows of constraint i of the model.
   const Rows& rows_of(int i) const { return constraint_rows_[i]; }
   /// Calls visit(constraint, rows) for every constraint of the mesh in turn.
   template <class Visit>

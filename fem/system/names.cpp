@@ -35,7 +35,7 @@ void name_rows(Names& names, const typename Assembly<D>::Rows& rows, const std::
     names[rows.first + k] = rows.count == 1 ? name : name + "[" + std::to_string(k + 1) + "]";
 }
 
-// Those of the parts of a structure; empty where there is none to name.
+// The name of the part of a structure that asks for a constraint; empty where there is none to name.
 template <int D>
 std::string part_name(const Assembly<D>& a, const auto& constraint) {
   const BeamModel& model = *a.model();

@@ -40,7 +40,7 @@ class BandedLu::Window {
   NURBEAM_WITHIN double* diagonal(int row) { return rows_ + (row - begin_) * width_ + before_; }
   /// Distance from a place in a row to the same column of the next row.
   NURBEAM_WITHIN std::ptrdiff_t to_next_row() const { return width_ - 1; }
-  /// One past the last column of a row.
+  /// End of a row: one past its last column.
   NURBEAM_WITHIN int& end(int row) { return ends_[row - begin_]; }
   /// Multipliers of column c of the present block, from the block's first row on.
   NURBEAM_WITHIN double* multipliers(int c) { return multipliers_ + c * height_; }

@@ -10,7 +10,7 @@ namespace nurbeam {
 /// before, with all unknowns of that level that are coupled with them. Unknowns are given by places, one
 /// front after the other.
 struct Front {
-  int first, own;            ///< its unknowns
+  int first, own;            ///< unknowns of the front
   int first_before, before;  ///< unknowns of the front of the level before
   int parent;                ///< index of that front, -1: none
   /// Start of its blocks among all blocks, one after the other and each row by row: rows of its own, columns

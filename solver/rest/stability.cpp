@@ -101,7 +101,8 @@ class ShiftedTangent {
 
 /// The eigenvector of the lowest eigenvalue, which must be below -round_off().
 Vector lowest_of(ShiftedTangent& tangent) {
-  double negative = tangent.round_off(), positive = 10 * negative;  // it is between -positive and -negative
+  // The eigenvalue is between -positive and -negative.
+  double negative = tangent.round_off(), positive = 10 * negative;
   while (tangent.factorise(positive) > 0 && positive < 10) {
     negative = positive;
     positive *= 10;

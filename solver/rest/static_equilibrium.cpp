@@ -379,7 +379,7 @@ class EquilibriumSearch {
   const State start_;
   StaticReport report_;
   bool lost_in_round_off_ = false;  // since the last equilibrium
-  bool ended_ = false;              // by settings_.ends_at
+  bool ended_ = false;              // whether settings_.ends_at has ended the search
   bool diverged_ = false;           // an equilibrium on the way diverges
   ScaledEquations equations_;
   Kinsol kinsol_;

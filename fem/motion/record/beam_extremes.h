@@ -3,7 +3,7 @@
 
 #include "fem/motion/record/snapshot.h"
 
-/// How extremes along a beam are found.
+/// The search for extremes along a beam.
 namespace nurbeam {
 
 /// An extreme among the values that elements have at their samples: the value of the largest size.

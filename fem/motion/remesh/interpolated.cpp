@@ -63,7 +63,7 @@ class KeptCoordinates {
 
 // A node on the curve of another mesh, at rest or moving over it.
 struct NodeOnCurve {
-  double s, rate;  // its place [m], [m/s]
+  double s, rate;  // place [m] and its rate [m/s]
   MaterialPoint<3> point;
 
   NodeOnCurve(const BeamSystem& from, const State& state, int beam, const MeshNode& node)

@@ -55,7 +55,7 @@ class SnapSearch {
     if (found.status != StaticStatus::converged) return {};
     if (first_ > 0 && found.leaves_start && outweighs_loads(from, start)) return 0;
     whole_ = distance(start, to);
-    constexpr double noticeable = 1e-6;  // of the model
+    constexpr double noticeable = 1e-6;  // relative to the model's size
     if (whole_ < noticeable) return {};
     return between({start, 0}, {to, 1});
   }

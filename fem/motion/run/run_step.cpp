@@ -200,7 +200,7 @@ std::function<double(const BeamSystem&, const State&)> distance_to(const BeamMod
 
 // States within the step that led to the present state, or to an instant before it.
 std::span<const State> states_within(const Run& run, double length) {
-  constexpr double instant = 1e-5;  // of the step
+  constexpr double instant = 1e-5;  // part of the step
   const bool led_here = std::abs(run.at.state.t - run.integrator->state().t) <= instant * length;
   return led_here ? run.integrator->within() : std::span<const State>();
 }
