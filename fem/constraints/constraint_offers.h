@@ -20,7 +20,7 @@ struct ConstraintOffers {
   bool action = false;     ///< (action(at, state, y)) force and couple on a point of a beam, if there is one
   bool on_body = false;    ///< (on_body(body, state, y)) force on a body [N]
   bool work = false;       ///< (work(from, to, y_from, y_to)) work between two states on one mesh [J]
-  bool body = false;       ///< (body()) first coordinate of a body that follows what the other coordinates do
+  bool body = false;  ///< (body()) first coordinate of a body that follows the constraint's other coordinates
   bool place = false;      ///< (place()) coordinate of the place that the constraint holds
   bool stop = false;       ///< (closed_stop()) number of the stop that the constraint keeps closed
   bool connector = false;  ///< (connector()) number of the rod, with length_and_force(state, y)

@@ -79,7 +79,7 @@ class Motion {
   twist::AnyDrawing<D> drawing_;
   twist::AnyDrawing<T> now_;
   Fields moving_;
-  // Of both ends, without the part that a node sees only as it moves over the drawing.
+  // Spins of both ends, without the part that a node sees only as it moves over the drawing.
   std::array<Rate, 2> spins_;
 };
 

@@ -15,7 +15,8 @@ Eigen::Matrix<double, n, 1> reduced_of(const TwistLayout::Coordinates& q) {
   return x;
 }
 
-/// The row of the element's coordinates for each reduced row; from the chord's row that of r_A is subtracted.
+/// The row of the element's coordinates for each reduced row. The chord is r_B - r_A, so that the row of r_A
+/// is subtracted from its row.
 inline constexpr std::array<int, reduced + 2> element_row = [] {
   using Layout = TwistLayout;
   std::array<int, reduced + 2> rows{};

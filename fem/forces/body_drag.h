@@ -27,7 +27,7 @@ class BodyDrag {
   const std::vector<int>& dofs() const { return dofs_; }
   /// The force of the air on the body [N].
   Vector force(const MeshedBeams<D>& at, const State& state) const;
-  /// The force on a body of that number [N].
+  /// The force on body number `body` [N].
   Vector on_body(const MeshedBeams<D>& at, int body, const State& state) const {
     return body == body_ ? force(at, state) : Vector::Zero();
   }

@@ -5,7 +5,7 @@
 
 namespace nurbeam {
 
-/// A binding holds what constraints and forces are bound to: the mesh, and the constraint rows bound so far.
+/// The mesh to which constraints and forces are bound, and the constraint rows bound so far.
 template <int D>
 struct Binding {
   MeshedBeams<D> at;

@@ -45,8 +45,8 @@ std::vector<int> away_from_new_elements(std::vector<int> kept, const BeamSystem&
 
 }  // namespace
 
-// Lets neighbours lag that have no difference where the mesh changes, and returns which. `kept`: per element
-// the index of the same one after the change, -1 where there is none.
+// Lets neighbours lag that do not differ where the mesh changes; returns which. `kept`: index after the
+// change of each element of before, -1 where it is gone.
 std::vector<bool> Sensitivities::let_lag(const MeshedState& before, const BeamSystem& behind,
                                          const std::vector<int>& kept) {
   const auto is_drawn = [](const BeamSystem& system) {

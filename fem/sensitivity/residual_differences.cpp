@@ -92,7 +92,7 @@ struct ResidualDifferences::In final : Implementation {
   Columns forces;  // more and less of each pair, a column each; zero between calls of find
   Eigen::VectorXd more_dynamics, less_dynamics, more_constraints, less_constraints;  // of a whole pair
   State general;                 // state in which unequal elements respond differently
-  State moved_more, moved_less;  // states of find
+  State moved_more, moved_less;  // room for the shifted states of find()
 
   // Data of pairs that outlast a change of the mesh.
   struct Before {

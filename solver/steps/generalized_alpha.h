@@ -123,7 +123,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   Eigen::VectorXd trial_algorithmic_;
   Eigen::VectorXd residual_;  ///< (n+m) scaled; once solved for, the correction that answers it
   Eigen::VectorXd
-      reference_;  ///< (n+m) inverse of what the scaled residual is compared with, where factorised_ is
+      reference_;  ///< (n+m) inverse of the reference of the scaled residual, at the place of factorised_
   Eigen::VectorXd inverse_scale_;  ///< (n) of the coordinates
   Eigen::MatrixXd moved_part_;     ///< present moving part less the one in kkt_
 };

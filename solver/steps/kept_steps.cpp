@@ -46,7 +46,7 @@ std::vector<KeptSteps::Moment> KeptSteps::beginnings(std::size_t first) const {
   return found;
 }
 
-// Step i of those that begin with step `first`.
+// Step number i; `beginnings`: starts of the steps from number `first` on.
 KeptSteps::Step KeptSteps::step(std::size_t i, std::size_t first,
                                 const std::vector<Moment>& beginnings) const {
   const Moment& moment = beginnings[i - first];

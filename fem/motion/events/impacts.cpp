@@ -45,9 +45,9 @@ bool others_keep(const BeamModel& model, const std::vector<bool>& closed, int st
 
 // Per stop: speeds and impulses across it that make no difference.
 struct Unnoticed {
-  std::vector<double> speed;  // [m/s]: a step would not tell its bodies from ones that touch
+  std::vector<double> speed;  // [m/s]: a step cannot tell bodies this slow from bodies that touch
   std::vector<double>
-      impulse;  // [N s]: of such a speed; the press of contact that is kept brings it back at once
+      impulse;  // [N s]: impulse of this speed; the force of a kept contact restores it at once
 };
 
 Unnoticed unnoticed(const MeshedState& at, double step) {

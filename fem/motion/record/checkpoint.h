@@ -10,7 +10,7 @@
 
 namespace nurbeam {
 
-/// A load whose value was changed from that of the case.
+/// A load whose value differs from that in the case.
 struct ChangedLoad {
   int number = 0;  ///< among the loads of the case
   Eigen::Vector3d value = Eigen::Vector3d::Zero();

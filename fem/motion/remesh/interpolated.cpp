@@ -84,7 +84,7 @@ struct Around {
     double shortest = std::numeric_limits<double>::infinity();
     for (const MeshSpan& span : system.mesh().spans)
       shortest = std::min(shortest, span.end(state.q) - span.start(state.q));
-    constexpr double far = 1e-3;  // part of that length, moved in that time
+    constexpr double far = 1e-3;  // moved part of the shortest span between the two moments
     const double rate = state.v.lpNorm<Eigen::Infinity>() / shortest +
                         std::sqrt(state.a.lpNorm<Eigen::Infinity>() / shortest);
     if (rate > 0) length = std::min(far / rate, 1.0);

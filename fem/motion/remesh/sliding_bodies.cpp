@@ -47,7 +47,7 @@ bool kept_apart(const BeamModel& model, int rider, int other) {
     if (stop.other < 0) return false;
     if (std::minmax(stop.rider, stop.other) == std::minmax(rider, other)) return true;
     if (closed || model.riders[stop.rider].beam != model.riders[rider].beam) return false;
-    // Another body between them has the stop, as no body passes another.
+    // A stop of another body between the two counts, as no body passes another.
     const auto [near, far] = place(stop.rider) < place(stop.other) ? std::pair(stop.rider, stop.other)
                                                                    : std::pair(stop.other, stop.rider);
     return near == rider && place(far) < place(other) && kept_apart(model, far, other);

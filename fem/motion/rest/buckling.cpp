@@ -121,8 +121,8 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   // Both tangents have load factor 1, which scales free strains; kkt of a drawn state is without them.
   const Matrix of_loads =
       tangent_matrix(loaded, state, {.stiffness = 1}) - tangent_matrix(system, state, {.stiffness = 1});
-  // Stresses have an energy and need no test. Their differences would leave less symmetry than exact tangents
-  // do.
+  // The test of symmetry is for the loads alone: stresses have an energy, and their differences are less
+  // symmetric than exact tangents.
   const Matrix unsymmetric = Matrix(of_loads - Matrix(of_loads.transpose())).topLeftCorner(n, n);
   const double allowed = 1e-9 * largest_entry(of_loads) + 1e-15 * largest_entry(kkt);
   return LoadStiffness{Matrix(geometric + of_loads).topLeftCorner(n, n),

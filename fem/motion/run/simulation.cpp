@@ -284,7 +284,8 @@ struct Simulation::Implementation {
     if (time == kink && !(pass_kink(run_) && release_bodies(run_))) return end_early();
     if (is_over()) run_.integrator->rest();  // no later step needs its matrix
     write_due();
-    constexpr long watch = 16;  // steps; an instability makes energy out of nothing within some more of them
+    // In steps: an instability makes all its energy out of nothing within a few times as many.
+    constexpr long watch = 16;
     // Between outputs, light bodies on beams at rest make a little energy for a moment.
     if (time == last_written_ && !run_.goes_on(energy_from_nowhere(0))) return end_early();
     if (run_.report.steps % watch == 0 && !run_.goes_on(energy_from_nowhere(slight_bending(*run_.model))))
