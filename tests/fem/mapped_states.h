@@ -123,7 +123,7 @@ inline std::vector<int> coordinates_of_beam(const BeamSystem& system, int beam) 
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
-/// Those between two nodes of a beam, the slope and the angle of the first behind it, of the last before it.
+/// Those of a beam up to a node: of the node itself its position, and the slope and the angle before it.
 inline std::vector<int> coordinates_before_node(const BeamSystem& system, int beam, int last) {
   std::vector<int> all;
   const std::vector<MeshNode>& nodes = system.mesh().nodes[beam];
