@@ -19,7 +19,8 @@ struct CaseBeam {
   std::string name;
   std::string path;  ///< JSON path of this object, for messages
   CaseAxis axis;
-  double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  /// For axes of degree above 3 [m]; else approximation_tolerance() of beam_axis.h.
+  std::optional<double> approximation_tolerance = {};
   bool rigid = false;                     ///< a guide: no section, material or elements
   bool ring = false;                      ///< the axis is closed, and so is the beam
   Corners corners = Corners::error;
@@ -184,7 +185,7 @@ inline Fields<CaseBeam> beam_fields() {
           field(&B::approximation_tolerance, "approximation_tolerance",
                 quantity(Dimension::length, positive()),
                 "greatest deviation of the cubics from an axis of degree above 3")
-              .otherwise("1e-6 m"),
+              .otherwise("1e-6 m, or 1e-6 of its length where that is less,"),
       },
       {{{"tension", "unstressed_length"}, false}}};
 }
