@@ -1,5 +1,5 @@
 // The tangent of the force of an element whose ends move: over the points, the sum of the terms of inertia,
-// elasticity, load and damping, each by what acts on r, r_s and r_ss.
+// elasticity, load and damping, each by what acts on r, r_s and r_ss. Long because the terms share the point.
 #include <tuple>
 
 #include "fem/element/beam_element.h"
