@@ -1,4 +1,3 @@
-// Long because it is the one list of all keys.
 #include "pipelines/case/case_keys.h"
 
 #include <cmath>

@@ -35,7 +35,7 @@ class Remap {
         enough_(closed_enough(from, state)) {}
 
   // The state with velocities for the positions next.q, by L2 projection; nothing when that is singular.
-  std::optional<Transferred> with_velocities(State next) const {
+  std::optional<Transferred> with_velocities(State next) {
     put_bodies(next);
     if (!close_constraints(to_, enough_, next)) return std::nullopt;
     const Projection projection = velocities(momentum_.on(next), next);
@@ -56,7 +56,7 @@ class Remap {
   // Moves nodes so that the total energy is the old one. New elements as interpolated carry axial strain that
   // the old ones did not have, so their nodes move; where that is not enough, neighbours move too, ring by
   // ring.
-  void keep_energy_by_moves(const SystemEnergy& old, Transferred& next) const {
+  void keep_energy_by_moves(const SystemEnergy& old, Transferred& next) {
     constexpr double accuracy = 1e-10;
     const double enough =
         accuracy * (old.kinetic + old.axial + old.bending);  // does not depend on where the model lies
@@ -73,7 +73,7 @@ class Remap {
   }
 
   // Repeats the moves of a neighbour; returns whether they could be made.
-  bool repeat(const std::vector<EnergyMove>& moves, Transferred& next) const {
+  bool repeat(const std::vector<EnergyMove>& moves, Transferred& next) {
     for (const EnergyMove& move : moves) {
       const std::vector<int> free = free_coordinates(move.rings);
       const Eigen::VectorXd whole = move_of(next.state, free, excess(next.state), move.mu).d;
@@ -86,7 +86,7 @@ class Remap {
   }
 
   // The stages of the transfer with all moves; nothing where more was needed.
-  std::optional<TransferPath> path(const EnergyKeeping& keeping) const {
+  std::optional<TransferPath> path(const EnergyKeeping& keeping) {
     if (!bodies_are_on_axes()) return std::nullopt;
     const std::vector<EnergyMove>& moves = keeping.moves;
     TransferPath path;
@@ -139,7 +139,7 @@ class Remap {
 
   // Projects velocities with this momentum at the positions next.q. A solution is near the one for the
   // positions before, and for neighbouring motions near theirs at the same positions.
-  Projection velocities(const Eigen::VectorXd& momentum, State& next) const {
+  Projection velocities(const Eigen::VectorXd& momentum, State& next) {
     constexpr int few = 400;
     if (solvers_) {
       if (solved_ == solvers_->size()) solvers_->emplace_back();
@@ -153,7 +153,7 @@ class Remap {
 
   // The motion with the free coordinates moved; nothing where that is not possible.
   std::optional<Transferred> with_move(const State& from, const std::vector<int>& free,
-                                       const Eigen::VectorXd& move) const {
+                                       const Eigen::VectorXd& move) {
     State moved = from;
     for (std::size_t i = 0; i < free.size(); ++i) moved.q[free[i]] += move[static_cast<long>(i)];
     if (!to_.admissible(moved)) return std::nullopt;
@@ -163,7 +163,7 @@ class Remap {
   // Makes one move of the free coordinates, halved until |e| falls. On the parabola of the potential energy
   // it takes the excess e away, or leads to the lowest place. Returns whether there is one; else nothing
   // changes.
-  bool move_towards(Transferred& next, int rings, const std::vector<int>& free, double& e) const {
+  bool move_towards(Transferred& next, int rings, const std::vector<int>& free, double& e) {
     auto [move, mu] = move_of(next.state, free, e, std::nullopt);
     for (int halvings = 0; halvings < 4; ++halvings, move /= 2) {
       std::optional<Transferred> trial = with_move(next.state, free, move);
@@ -250,8 +250,8 @@ class Remap {
   const State& state_;
   const BeamSystem& to_;
   NeighbourSolvers* const solvers_;
-  mutable std::size_t solved_ = 0;  // number of `solvers_` used
-  mutable ProjectionSolver own_;    // used without `solvers_`
+  std::size_t solved_ = 0;  // number of `solvers_` used
+  ProjectionSolver own_;    // used without `solvers_`
   const CarriedMomentum momentum_;
   const std::vector<int> around_;  // rows of the new mesh that may be open
   const double enough_;            // tolerance of closed constraints
@@ -272,7 +272,7 @@ State balanced(const BeamSystem& from, const State& state, const BeamSystem& to)
 
 std::optional<Transferred> projected(const BeamSystem& from, const State& state, const SystemEnergy& energy,
                                      const BeamSystem& to) {
-  const Remap remap(from, state, to);
+  Remap remap(from, state, to);
   std::optional<Transferred> next = remap.with_velocities(balanced(from, state, to));
   if (next && remap.keep_energy_by_velocities(*next)) return next;
   const bool is_balanced = !without_pointwise_strain(to.model(), new_nodes(from, to)).empty();
@@ -287,7 +287,7 @@ std::optional<Transferred> projected(const BeamSystem& from, const State& state,
 
 std::optional<Transferred> projected_like(const BeamSystem& from, const State& state, const BeamSystem& to,
                                           const EnergyKeeping& keeping, NeighbourSolvers& solvers) {
-  const Remap remap(from, state, to, &solvers);
+  Remap remap(from, state, to, &solvers);
   std::optional<Transferred> next = remap.with_velocities(
       keeping.by_velocities ? balanced(from, state, to) : interpolated(from, state, to));
   if (!next) return next;
