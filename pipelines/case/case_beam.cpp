@@ -123,9 +123,13 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
                          Findings& findings) {
   if (has(section, "profile")) {
     const Json& profile = section["profile"];
-    CaseSection drawn = {.torsion_constant = optional_number(section, "torsion_constant"),
-                         .profile = CaseProfile{(directory / text(profile, "file")).lexically_normal(),
-                                                text(profile, "in_plane") == "x"}};
+    CaseSection drawn = {
+        .torsion_constant = optional_number(section, "torsion_constant"),
+        .profile = CaseProfile{.path = (directory / text(profile, "file")).lexically_normal(),
+                               .x_in_plane = text(profile, "in_plane") == "x",
+                               .curves = {.part = optional_text(profile, "part"),
+                                          .layer = optional_text(profile, "layer"),
+                                          .colour = optional_text(profile, "colour")}}};
     if (has(profile, "file")) check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
     return drawn;
   }

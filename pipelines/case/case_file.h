@@ -29,6 +29,11 @@ struct Place {
   std::optional<double> within = {};  ///< greatest distance of the point from the axis [m] for near
 };
 
+/// What narrows a choice among the curves of a CAD file.
+struct CurveChoice {
+  std::optional<std::string> part = {}, layer = {}, colour = {};
+};
+
 /// Which curves of a CAD file.
 struct AxisFile {
   std::filesystem::path path;  ///< absolute
@@ -40,6 +45,8 @@ struct AxisFile {
   bool longest = false;
   bool all_chains = false;
   std::optional<double> gap = {};  ///< largest gap to close [m]
+
+  CurveChoice choice() const { return {part, layer, colour}; }
 };
 
 struct CaseAxis {
@@ -57,6 +64,7 @@ struct CaseProfile {
   bool x_in_plane = false;     ///< a planar model bends along the profile's x axis; else along y
   /// Given by numbers instead of a file: corners, anticlockwise [m].
   std::vector<Eigen::Vector2d> outline = {};
+  CurveChoice curves = {};  ///< of the file
 };
 
 struct CaseSection {

@@ -15,6 +15,11 @@ namespace {
 
 using namespace shapes;
 
+constexpr const char* only_part =
+    "only curves of this part (STEP), group (IGES) or block (DXF): its name, or the end of its path";
+constexpr const char* only_layer = "only curves of this layer (STEP, DXF) or level (IGES)";
+constexpr const char* only_colour = "only curves of this colour, \"#rrggbb\"";
+
 Range time_step() { return plausible(1e-12, 1e9); }
 Range element_count() {
   return {.lower = 1, .upper = most_elements, .reason = "the most elements of one beam"};
@@ -78,11 +83,9 @@ Shape axis() {
        {"curve", either(any_text(), integer(from(1))),
         "name or index (from 1) as `nurbeam inspect` prints them", false, "file"},
        {"chain", boolean(), "also the tangent-continuous curves connected to `curve`", false, "curve"},
-       {"part", any_text(),
-        "only curves of this part (STEP), group (IGES) or block (DXF): its name, or the end of its path",
-        false, "file"},
-       {"layer", any_text(), "only curves of this layer (STEP, DXF) or level (IGES)", false, "file"},
-       {"colour", any_text(), "only curves of this colour, \"#rrggbb\"", false, "file"},
+       {"part", any_text(), only_part, false, "file"},
+       {"layer", any_text(), only_layer, false, "file"},
+       {"colour", any_text(), only_colour, false, "file"},
        {"near", point(), "the chain of curves nearest to this point", false, "file"},
        {"longest", boolean(), "the longest chain of curves", false, "file"},
        {"chains", choice({"all"}), "every chain becomes a beam: \"name 1\", \"name 2\", ...", false, "file"},
@@ -100,7 +103,10 @@ Shape section() {
                std::string(cad_formats) + " file with an outline and its holes, relative to the case file",
                required},
               {"in_plane", choice({"y", "x"}),
-               "the profile's axis that lies in the plane of a planar model; y when omitted"}});
+               "the profile's axis that lies in the plane of a planar model; y when omitted"},
+              {"part", any_text(), only_part},
+              {"layer", any_text(), only_layer},
+              {"colour", any_text(), only_colour}});
   const Shape size = quantity(Dimension::length, plausible(1e-9, 1e4));
   const Shape i_section = object({{"width", size, "of the flanges", required},
                                   {"height", size, "from outside to outside", required},
@@ -135,7 +141,8 @@ Shape section() {
        {"extreme_fibre", quantity(Dimension::length, plausible(1e-9, 1e4)),
         "greatest distance of the section from its axis of bending; without it no stress is given", false,
         "area"},
-       {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
+       {"profile", profile,
+        "section drawn in a CAD file; all curves of the file together, or of a part, layer and colour of it"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
       {{{"radius", "rectangle", "i_section", "rope", "area", "profile", "from"}, required},
        {{"second_moment", "second_moments"}, false}});
