@@ -26,6 +26,7 @@
 #include "cad_import/dxf/read_dxf.h"
 #include "cad_import/iges/iges_global.h"
 #include "cad_import/iges/line_forms.h"
+#include "cad_import/json/read_curves.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/brep_text.h"
 #include "cad_import/program/damaged_entities.h"
@@ -196,13 +197,14 @@ void read_iges(const std::string& content, double tolerance, ImportReport& repor
 }
 
 // -------------------------------------------------------------------------------------------------------
-// DXF and BREP
+// DXF, JSON and BREP
 
-void read_drawing(const std::string& content, ImportReport& report) {
-  ImportReport drawing = read_dxf(content);
+// What was read without OpenCASCADE.
+void take(ImportReport drawing, ImportReport& report) {
   for (Diagnostic& diagnostic : drawing.diagnostics)
     add_diagnostic(report, diagnostic.severity, diagnostic.where, diagnostic.message);
   drawing.file = report.file;
+  drawing.format = report.format;
   drawing.diagnostics = std::move(report.diagnostics);
   report = std::move(drawing);
   note_hidden(report);
@@ -240,9 +242,13 @@ void read_format(const std::string& content, CadFormat format, double tolerance,
     case CadFormat::iges:
       return read_iges(content, tolerance, report);
     case CadFormat::dxf:
-      return read_drawing(content, report);
+      return take(read_dxf(content), report);
     case CadFormat::brep:
       return read_brep(content, tolerance, report);
+    case CadFormat::json:
+      return take(read_json(content), report);
+    case CadFormat::svg:
+      throw std::runtime_error("SVG is written, not read; give the drawing as DXF");
   }
 }
 

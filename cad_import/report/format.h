@@ -2,8 +2,9 @@
 
 namespace nurbeam {
 
-/// `brep` is OpenCASCADE's own format, as text.
-enum class CadFormat { step, iges, dxf, brep };
+/// `brep` is OpenCASCADE's own format, as text; `json` curves as NURBS; `svg` is written only.
+enum class CadFormat { step, iges, dxf, brep, json, svg };
+constexpr CadFormat last_format = CadFormat::svg;
 
 /// The application protocol that a STEP file follows: ISO 10303-214 or -242.
 enum class StepSchema { ap214, ap242 };
