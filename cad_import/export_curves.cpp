@@ -37,10 +37,11 @@ void put_in_line(std::string& name, std::string& part) {
 void put_in_line(NamedPipe& pipe) { put_in_line(pipe.axis.name, pipe.axis.part); }
 void put_in_line(SweptProfile& profile) { put_in_line(profile.name, profile.part); }
 
-constexpr std::chrono::seconds patience{120};
+// A second more for 100 curves or solids.
+std::chrono::seconds patience_for(std::size_t count) { return std::chrono::seconds(120 + count / 100); }
 
 // The text, or why there is none.
-std::string reason_of(const ChildResult& result, const char* work) {
+std::string reason_of(const ChildResult& result, const char* work, std::chrono::seconds patience) {
   if (result.status == ChildResult::Status::timed_out)
     return std::string(work) + " takes longer than " + std::to_string(patience.count()) + " s";
   if (result.status == ChildResult::Status::crashed)
@@ -88,27 +89,33 @@ WriteCurvesRequest request_for(const CurvesFile& file) {
 CadFormat written_format(const fs::path& file) {
   const std::optional<CadFormat> format = format_by_name(file);
   if (!format || *format == CadFormat::ifc)
-    throw std::invalid_argument("the extension '" + file.extension().string() + "' of " + file.string() +
-                                " names no CAD format that is written; known are .step .stp .igs .iges .dxf .brep .brp");
+    throw std::invalid_argument(
+        "the extension '" + file.extension().string() + "' of " + file.string() +
+        " names no CAD format that is written; known are .step .stp .igs .iges .dxf .brep .brp .json .svg");
   return *format;
 }
 
 std::vector<Diagnostic> export_curves(const fs::path& file, const std::vector<NamedCurve>& curves,
                                       LengthUnit unit, StepSchema schema) {
+  const std::chrono::seconds patience = patience_for(curves.size());
   const ChildResult result = asked(request_for({file, curves, unit, schema}), {patience});
   if (result.status != ChildResult::Status::finished)
-    return {{Severity::error, file.string(), "not written: " + reason_of(result, "writing")}};
+    return {{Severity::error, file.string(), "not written: " + reason_of(result, "writing", patience)}};
   return write_at_once(file, result.output);
 }
 
 std::vector<Diagnostic> export_curves(const std::vector<CurvesFile>& files) {
   WriteFilesRequest request;
-  for (const CurvesFile& file : files) request.files.push_back(request_for(file));
+  std::size_t count = 0;
+  for (const CurvesFile& file : files) {
+    request.files.push_back(request_for(file));
+    count += file.curves.size();
+  }
   std::vector<Diagnostic> problems;
   const auto add = [&](const std::vector<Diagnostic>& found) {
     problems.insert(problems.end(), found.begin(), found.end());
   };
-  const ChildResult result = asked(request, {patience});
+  const ChildResult result = asked(request, {patience_for(count)});
   if (result.status == ChildResult::Status::finished) {
     const std::vector<std::string> texts = texts_from_bytes(result.output);
     for (std::size_t i = 0; i < files.size(); ++i) add(write_at_once(files[i].path, texts.at(i)));
@@ -140,10 +147,12 @@ std::vector<Diagnostic> export_solids(const fs::path& file, const std::vector<Na
           put_in_line(of_kind);
         },
         solid);
+  const std::chrono::seconds patience = patience_for(solids.size());
   const ChildResult result = asked(WriteSolidsRequest{format, std::move(in_line), unit, schema}, {patience});
   if (result.status == ChildResult::Status::finished) return write_at_once(file, result.output);
   return {{Severity::error, file.string(),
-           "not written: " + reason_of(result, "sweeping") + "; write the curves, which have every shape"}};
+           "not written: " + reason_of(result, "sweeping", patience) +
+               "; write the curves, which have every shape"}};
 }
 
 }  // namespace nurbeam

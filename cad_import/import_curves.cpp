@@ -37,11 +37,22 @@ std::optional<std::string> unusable(const fs::path& file, std::size_t size_limit
   if (size == 0) return "the file is empty" + expected;
   if (size > size_limit)
     return "the file has " + megabytes(size) + ", more than the limit of " + megabytes(size_limit) +
-           "; export only the curves that are needed, or raise size_limit_bytes";
+           "; export only the curves that are needed";
   return std::nullopt;
 }
 
-ImportReport report_of(const ChildResult& result, const fs::path& file, const ImportOptions& options) {
+ChildLimits limits_for(const fs::path& file, const ImportOptions& options) {
+  constexpr std::uintmax_t seconds = 2, bytes = 24;  // for each MiB, and for each byte, of the file
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  ChildLimits limits{options.time_limit, options.memory_limit_bytes, options.interrupted, options.watch};
+  if (error) return limits;
+  limits.time += std::chrono::seconds(seconds * (size >> 20));
+  if (limits.memory_bytes > 0) limits.memory_bytes += bytes * size;
+  return limits;
+}
+
+ImportReport report_of(const ChildResult& result, const fs::path& file, const ChildLimits& limits) {
   switch (result.status) {
     case ChildResult::Status::finished:
       return report_from_bytes(result.output);
@@ -49,12 +60,14 @@ ImportReport report_of(const ChildResult& result, const fs::path& file, const Im
       return error_report(file, "the reader failed: " + result.complaint);
     case ChildResult::Status::out_of_memory:
       return error_report(file, "reading it needs more than the memory limit of " +
-                                    megabytes(options.memory_limit_bytes) +
-                                    "; the file is damaged, or raise memory_limit_bytes");
+                                    megabytes(limits.memory_bytes) +
+                                    ", which is that of its size; the file is damaged, or export the curves "
+                                    "alone");
     case ChildResult::Status::timed_out:
       return error_report(file, "reading it takes longer than the time limit of " +
-                                    std::to_string(options.time_limit.count()) +
-                                    " s; the file is damaged, or raise time_limit");
+                                    std::to_string(limits.time.count()) +
+                                    " s, which is that of its size; the file is damaged, or export the "
+                                    "curves alone");
     case ChildResult::Status::interrupted:
       return error_report(file, "reading it was interrupted");
     case ChildResult::Status::crashed:
@@ -73,9 +86,11 @@ ImportReport import_curves(const fs::path& file, const ImportOptions& options) {
     throw std::invalid_argument("tolerance is " + text_of(options.tolerance) + " m; it must be positive");
   if (const auto reason = unusable(file, options.size_limit_bytes)) return error_report(file, *reason);
   try {
-    return report_of(asked(ReadRequest{file, options.tolerance},
-                           {options.time_limit, options.memory_limit_bytes, options.interrupted}),
-                     file, options);
+    const ChildLimits limits = limits_for(file, options);
+    const ChildResult result = asked(ReadRequest{file, options.tolerance}, limits);
+    ImportReport report = report_of(result, file, limits);
+    report.peak_memory = result.peak_memory;
+    return report;
   } catch (const std::exception& e) {
     return error_report(file,
                         std::string("the reader was damaged by it and sent no valid report: ") + e.what());

@@ -8,17 +8,20 @@
 
 namespace nurbeam {
 
-/// Limits on one file and on the child process that reads it.
+/// Limits on one file and on the child process that reads it. Each MiB of the file adds 2 s to the time and
+/// 24 MiB to the memory.
 struct ImportOptions {
   std::size_t size_limit_bytes = std::size_t{512} << 20;  ///< of the file; a larger one is not opened
   std::chrono::seconds time_limit{28};                    ///< wall and CPU time
   std::size_t memory_limit_bytes = std::size_t{2} << 30;  ///< address space; 0: no limit (sanitizer builds)
   double tolerance = 1e-7;                                ///< for entities that have no exact NURBS form [m]
   std::function<bool()> interrupted = {};  ///< asked ten times a second; reading then ends with an error
+  /// Told ten times a second how long the reader has worked [s] and how much memory it holds [bytes].
+  std::function<void(double, std::size_t)> watch = {};
 };
 
-/// All curves of a STEP, IGES, DXF or BREP file (by its content, not its name): edges of shapes and free
-/// curves, each once.
+/// All curves of a STEP, IGES, DXF, BREP or JSON file (by its content, not its name): edges of shapes and
+/// free curves, each once.
 ///
 /// Read by OpenCASCADE in a child process under the limits; a crash, a time-out or an unreadable file is a
 /// Diagnostic of severity error in the report (never an exception, never harm to this process). Every curve

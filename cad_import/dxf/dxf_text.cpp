@@ -1,11 +1,11 @@
 #include "cad_import/dxf/dxf_text.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cstdio>
 #include <initializer_list>
 #include <stdexcept>
 #include <string_view>
+#include <unordered_set>
 
 #include "cad_import/dxf/layer_names.h"
 
@@ -229,8 +229,9 @@ std::string dxf_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
   const DxfUnit in_file = dxf_unit(unit);
   const std::vector<std::string> layer_of = layer_names(curves);
   std::vector<std::string> layers{"0"};
+  std::unordered_set<std::string> known{"0"};
   for (const std::string& layer : layer_of)
-    if (std::find(layers.begin(), layers.end(), layer) == layers.end()) layers.push_back(layer);
+    if (known.insert(layer).second) layers.push_back(layer);
   DxfText out;
   begin_section(out, "CLASSES");
   out.add(0, "ENDSEC");

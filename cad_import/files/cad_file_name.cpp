@@ -22,14 +22,17 @@ std::optional<CadFormat> format_by_name(const std::filesystem::path& file) {
   static const std::map<std::string, CadFormat> known{{".step", CadFormat::step}, {".stp", CadFormat::step},
                                                       {".igs", CadFormat::iges},  {".iges", CadFormat::iges},
                                                       {".dxf", CadFormat::dxf},   {".brep", CadFormat::brep},
-                                                      {".brp", CadFormat::brep},  {".ifc", CadFormat::ifc}};
+                                                      {".brp", CadFormat::brep},  {".ifc", CadFormat::ifc},
+                                                      {".json", CadFormat::json}, {".svg", CadFormat::svg}};
   const auto at = known.find(ending_of_name(file));
   return at == known.end() ? std::nullopt : std::optional(at->second);
 }
 
 bool is_named_as_cad_file(const std::filesystem::path& file) {
   static const std::set<std::string> packed{".stpz", ".zip", ".gz"};
-  return format_by_name(file) || packed.contains(ending_of_name(file));
+  const std::optional<CadFormat> format = format_by_name(file);
+  const bool is_drawing = format && *format != CadFormat::json && *format != CadFormat::svg;
+  return is_drawing || packed.contains(ending_of_name(file));
 }
 
 }  // namespace nurbeam

@@ -95,6 +95,7 @@ std::optional<CadFormat> format_of(const std::string& content) {
   if (const std::string_view text = without_leading_space(content);
       text.starts_with("DBRep_DrawableShape") || text.starts_with("CASCADE Topology V"))
     return CadFormat::brep;
+  if (without_leading_space(content).starts_with('{')) return CadFormat::json;
   return std::nullopt;
 }
 

@@ -5,12 +5,14 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "cad_import/files/child_message.h"
 
@@ -42,14 +44,30 @@ int milliseconds_until(Clock::time_point deadline) {
   return static_cast<int>(std::clamp<std::chrono::milliseconds::rep>(left, 0, 1'000'000));
 }
 
+// What a process holds at this moment [bytes]; 0 where that is not known.
+std::size_t resident_memory(pid_t process) {
+  std::ifstream statm("/proc/" + std::to_string(process) + "/statm");
+  std::size_t size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
 // Everything up to the end of the stream; false when the deadline passes first or an interruption comes.
-bool receive_until(Clock::time_point deadline, const std::function<bool()>& interrupted, int descriptor,
+bool receive_until(Clock::time_point deadline, const ChildLimits& limits, pid_t child, int descriptor,
                    std::string& bytes) {
   constexpr int asked_every = 100;  // [ms]
+  const Clock::time_point start = Clock::now();
+  Clock::time_point told = start;
+  const auto tell = [&] {
+    if (!limits.watch || Clock::now() < told + std::chrono::milliseconds(asked_every)) return;
+    told = Clock::now();
+    limits.watch(std::chrono::duration<double>(told - start).count(), resident_memory(child));
+  };
   char buffer[1 << 16];
-  while (Clock::now() < deadline && !(interrupted && interrupted())) {
+  while (Clock::now() < deadline && !(limits.interrupted && limits.interrupted())) {
+    tell();
     pollfd ready{descriptor, POLLIN, 0};
-    const int longest = interrupted ? asked_every : milliseconds_until(deadline);
+    const int longest = limits.interrupted || limits.watch ? asked_every : milliseconds_until(deadline);
     if (poll(&ready, 1, std::min(longest, milliseconds_until(deadline))) <= 0) continue;
     const ssize_t count = read(descriptor, buffer, sizeof buffer);
     if (count == 0) return true;
@@ -66,22 +84,32 @@ bool is_complete(const std::string& bytes) {
   return bytes.size() - child_message::header_size == size;
 }
 
-// The status word of the ended child. A child that has closed its end without leaving is killed.
-int reap(pid_t child) {
+/// How a child has ended.
+struct ChildEnd {
+  int status = 0;  // as waitpid gives it
+  std::size_t peak_memory = 0;
+};
+
+std::size_t peak_memory(const rusage& usage) { return static_cast<std::size_t>(usage.ru_maxrss) << 10; }
+
+// A child that has closed its end without leaving is killed.
+ChildEnd reap(pid_t child) {
   kill(child, SIGKILL);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  rusage usage{};
+  while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
   }
-  return status;
+  return {status, peak_memory(usage)};
 }
 
 // A child that has closed its end of the pipe is about to end: its own status is wanted, if it comes in time.
-int wait_for_end(pid_t child, Clock::time_point deadline) {
+ChildEnd wait_for_end(pid_t child, Clock::time_point deadline) {
   int status = 0;
+  rusage usage{};
   while (Clock::now() < deadline) {
-    const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child) return status;
-    if (ended < 0 && errno != EINTR) return 0;
+    const pid_t ended = wait4(child, &status, WNOHANG, &usage);
+    if (ended == child) return {status, peak_memory(usage)};
+    if (ended < 0 && errno != EINTR) return {};
     poll(nullptr, 0, 1);
   }
   return reap(child);
@@ -200,12 +228,16 @@ ChildResult run_program(const std::filesystem::path& program, const std::string&
   childs_end.reset();
   if (error != 0) return {Status::not_started, "", program.string() + ": " + std::strerror(error)};
   std::string bytes;
-  const bool in_time = receive_until(deadline, limits.interrupted, answer.get(), bytes);
+  const bool in_time = receive_until(deadline, limits, child, answer.get(), bytes);
   answer.reset();
-  const int wait_status = in_time ? wait_for_end(child, deadline) : reap(child);
-  if (is_complete(bytes)) return result_of(bytes);
-  if (in_time) return result_of(wait_status, program);
-  return {Clock::now() < deadline ? Status::interrupted : Status::timed_out, "", ""};
+  const ChildEnd end = in_time ? wait_for_end(child, deadline) : reap(child);
+  ChildResult result{Clock::now() < deadline ? Status::interrupted : Status::timed_out, "", ""};
+  if (is_complete(bytes))
+    result = result_of(bytes);
+  else if (in_time)
+    result = result_of(end.status, program);
+  result.peak_memory = end.peak_memory;
+  return result;
 }
 
 }  // namespace nurbeam

@@ -13,6 +13,8 @@ struct ChildLimits {
   std::size_t memory_bytes = 0;   ///< address space; 0: no limit
   /// Asked ten times a second whether nobody waits for the answer any more.
   std::function<bool()> interrupted = {};
+  /// Told ten times a second how long it has worked [s] and how much memory it holds [bytes].
+  std::function<void(double, std::size_t)> watch = {};
 };
 
 /// How a child process ended, and what it sent.
@@ -25,6 +27,7 @@ struct ChildResult {
   std::string output;     ///< its answer when finished
   std::string complaint;  ///< the exception text when failed, the signal's name when crashed, the reason when
                           ///< not started
+  std::size_t peak_memory = 0;  ///< that it has held [bytes]
 };
 
 /// Whether this build can limit the address space (a build with the address sanitizer cannot).

@@ -175,7 +175,8 @@ std::string tolerant_text(std::string content) {
   if (content.starts_with(byte_order_mark)) content.erase(0, byte_order_mark.size());
   if (has_no_line_ends(content)) return in_lines(content);
   const std::optional<CadFormat> format = format_of(content);
-  if (format == CadFormat::step || format == CadFormat::ifc) return tolerant_step(as_utf8(std::move(content)));
+  if (format == CadFormat::step || format == CadFormat::ifc)
+    return tolerant_step(as_utf8(std::move(content)));
   if (format == CadFormat::dxf) return drawing_in_utf8(std::move(content));
   return content;
 }

@@ -6,12 +6,14 @@
 #include "cad_import/dxf/dxf_text.h"
 #include "cad_import/files/child_work.h"
 #include "cad_import/iges/iges_text.h"
+#include "cad_import/json/curves_text.h"
 #include "cad_import/program/brep_text.h"
 #include "cad_import/program/contained_reading.h"
 #include "cad_import/program/exchange_curves.h"
 #include "cad_import/report/report_bytes.h"
 #include "cad_import/report/request.h"
 #include "cad_import/step/step_text.h"
+#include "cad_import/svg/svg_text.h"
 
 /// nurbeam-cad: reads and writes CAD files for nurbeam, one request a process. A bad file may crash it.
 namespace nurbeam {
@@ -30,6 +32,10 @@ std::string answer(const WriteCurvesRequest& request) {
       return brep_text(request.curves);
     case CadFormat::ifc:
       break;
+    case CadFormat::json:
+      return json_text(request.curves, request.unit);
+    case CadFormat::svg:
+      return svg_text(request.curves, request.unit);
   }
   throw std::runtime_error("files of this format are not written");
 }

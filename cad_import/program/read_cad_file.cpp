@@ -27,6 +27,7 @@
 #include "cad_import/ifc/read_ifc.h"
 #include "cad_import/iges/iges_global.h"
 #include "cad_import/iges/line_forms.h"
+#include "cad_import/json/read_curves.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/program/brep_text.h"
 #include "cad_import/program/damaged_entities.h"
@@ -232,7 +233,7 @@ void read_iges(const std::string& given, double tolerance, const KeptEntities& k
 }
 
 // -------------------------------------------------------------------------------------------------------
-// DXF and BREP
+// DXF, IFC, JSON and BREP
 
 /// What a reader without OpenCASCADE has found.
 void take_over(ImportReport drawing, ImportReport& report) {
@@ -282,6 +283,10 @@ void read_format(const std::string& content, CadFormat format, double tolerance,
       return take_over(read_ifc(content, tolerance), report);
     case CadFormat::brep:
       return read_brep(content, tolerance, report);
+    case CadFormat::json:
+      return take_over(read_json(content), report);
+    case CadFormat::svg:
+      throw std::runtime_error("SVG is written, not read; give the drawing as DXF");
   }
 }
 

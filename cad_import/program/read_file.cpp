@@ -43,7 +43,7 @@ ImportReport read_file_of(const fs::path& file, double tolerance, const KeptEnti
         file,
         "neither STEP or IFC (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
         "first line) nor DXF (must begin with a SECTION) nor OpenCASCADE's BREP (must begin with "
-        "DBRep_DrawableShape or CASCADE Topology); export the curves as STEP AP214 or IGES");
+        "DBRep_DrawableShape or CASCADE Topology) nor JSON of curves (must begin with {); export the curves as STEP AP214 or IGES");
   }
   if (const auto missing = incompleteness(content, *format)) return refusal(file, *missing);
   return read_cad_file(

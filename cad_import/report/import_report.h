@@ -39,6 +39,7 @@ struct ImportReport {
       0;  ///< distance within which points of the file are one, as declared [m]; 0: undeclared
   std::vector<ImportedCurve> curves;
   std::vector<Diagnostic> diagnostics;
+  std::size_t peak_memory = 0;  ///< that reading it took [bytes]
   bool ok() const { return !has_errors(diagnostics); }
 };
 

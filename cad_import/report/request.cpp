@@ -120,7 +120,7 @@ Choice read_choice(ByteReader& in, Choice last) {
 }
 
 WriteCurvesRequest read_write_curves(ByteReader& in) {
-  const CadFormat format = read_choice(in, CadFormat::brep);
+  const CadFormat format = read_choice(in, last_format);
   const LengthUnit unit = read_choice(in, LengthUnit::inch);
   const StepSchema schema = read_choice(in, StepSchema::ap242);
   return {format, read_list(in, read_named_curve), unit, schema};
@@ -145,7 +145,7 @@ CadRequest request_from_bytes(const std::string& bytes) {
     case 1:
       return read_write_curves(in);
     case 2: {
-      const CadFormat format = read_choice(in, CadFormat::brep);
+      const CadFormat format = read_choice(in, last_format);
       const LengthUnit unit = read_choice(in, LengthUnit::inch);
       const StepSchema schema = read_choice(in, StepSchema::ap242);
       return WriteSolidsRequest{format, read_list(in, read_named_solid), unit, schema};

@@ -9,6 +9,7 @@
 #include "nurbs/smooth/linear_factors.h"
 #include "nurbs/smooth/rejoin.h"
 #include "nurbs/smooth/straight_links.h"
+#include "nurbs/smooth/whole_conic.h"
 
 namespace nurbeam {
 
@@ -76,6 +77,11 @@ std::optional<Pieces> smoothed(const Pieces& lowest, Way way, Eigen::Index degre
   return changed(pieces, 0, free_changes(pieces, tolerance));
 }
 
+bool is_closed(const Pieces& pieces, double tolerance) {
+  const Points &front = pieces.front().points, &back = pieces.back().points;
+  return (front.col(0).hnormalized() - back.col(back.cols() - 1).hnormalized()).norm() <= tolerance;
+}
+
 /// The number of joints at which the tangents differ.
 int corners(const Pieces& pieces, double tolerance) {
   int count = 0;
@@ -92,9 +98,13 @@ int full_knots(const NurbsCurve& curve) {
   }));
 }
 
-/// The curve of the first way, in the order of the control points they need, that leaves full knots at
-/// corners only; else that with the fewest.
+/// A whole conic by itself; else the curve of the first way, in the order of the control points they need,
+/// that leaves full knots at corners only; else that with the fewest.
 SmoothNurbs smoothest(const Pieces& lowest, double start, double tolerance) {
+  if (lowest[0].degree() == 2 && is_closed(lowest, tolerance))
+    if (auto conic = whole_conic(of_degree(lowest, 2, CurveParameter::free, widest_spread, tolerance), start,
+                                 total_length(lowest), tolerance))
+      return std::move(*conic);
   const Eigen::Index p = lowest[0].degree();
   std::vector<std::pair<Way, Eigen::Index>> ways{{Way::by_lines, p}, {Way::by_runs, p}};
   if (p == 2) ways.insert(ways.end(), {{Way::by_lines, 3}, {Way::by_runs, 3}});

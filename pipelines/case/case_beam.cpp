@@ -125,9 +125,13 @@ CaseSection read_section(const Json& section, const std::filesystem::path& direc
                          Findings& findings) {
   if (has(section, "profile")) {
     const Json& profile = section["profile"];
-    CaseSection drawn = {.torsion_constant = optional_number(section, "torsion_constant"),
-                         .profile = CaseProfile{(directory / text(profile, "file")).lexically_normal(),
-                                                text(profile, "in_plane") == "x"}};
+    CaseSection drawn = {
+        .torsion_constant = optional_number(section, "torsion_constant"),
+        .profile = CaseProfile{.path = (directory / text(profile, "file")).lexically_normal(),
+                               .x_in_plane = text(profile, "in_plane") == "x",
+                               .curves = {.part = optional_text(profile, "part"),
+                                          .layer = optional_text(profile, "layer"),
+                                          .colour = optional_text(profile, "colour")}}};
     if (has(profile, "file")) check_cad_file(drawn.profile->path, child(path, "profile.file"), findings);
     return drawn;
   }
@@ -250,7 +254,10 @@ Shape section_shape() {
                std::string(cad_formats) + " file with an outline and its holes, relative to the case file",
                required},
               {"in_plane", choice({"y", "x"}),
-               "the profile's axis that lies in the plane of a planar model; y when omitted"}});
+               "the profile's axis that lies in the plane of a planar model; y when omitted"},
+              {"part", any_text(), only_part},
+              {"layer", any_text(), only_layer},
+              {"colour", any_text(), only_colour}});
   const Shape size = quantity(Dimension::length, plausible(1e-9, 1e4));
   const Shape i_section = object({{"width", size, "of the flanges", required},
                                   {"height", size, "from outside to outside", required},
@@ -285,7 +292,8 @@ Shape section_shape() {
        {"extreme_fibre", quantity(Dimension::length, plausible(1e-9, 1e4)),
         "greatest distance of the section from its axis of bending; without it no stress is given", false,
         "area"},
-       {"profile", profile, "section drawn in a CAD file; all curves of the file together"},
+       {"profile", profile,
+        "section drawn in a CAD file; all curves of the file together, or of a part, layer and colour of it"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
       {{{"radius", "rectangle", "i_section", "rope", "area", "profile", "from"}, required},
        {{"second_moment", "second_moments"}, false}});

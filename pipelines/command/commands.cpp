@@ -10,6 +10,8 @@
 #include "pipelines/case/quantity.h"
 #include "pipelines/command/check.h"
 #include "pipelines/command/compare.h"
+#include "pipelines/command/convert_entries.h"
+#include "pipelines/command/curves_schema.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/manual.h"
 #include "pipelines/command/study.h"
@@ -24,16 +26,6 @@
 namespace nurbeam {
 
 namespace {
-
-/// A number in SI units or a text with a unit.
-double quantity_argument(const std::string& option, const std::string& text, Dimension dimension) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) return number;
-  const ParsedQuantity quantity = parse_quantity(text, dimension);
-  if (!quantity.value) throw UsageError(option + ": " + quantity.error);
-  return *quantity.value;
-}
 
 int inspect_command(const Arguments& arguments, Streams streams) {
   if (arguments.has("--profile")) {
@@ -133,8 +125,13 @@ int compare_command(const Arguments& arguments, Streams streams) {
 int schema_command(const Arguments& arguments, Streams streams) {
   const std::string what = arguments.positional.empty() ? "case" : arguments.positional[0];
   if (what == "study") return study_schema_command();
+  if (what == "curves") {
+    streams.out << curves_schema;
+    return exit_done;
+  }
   if (what != "case")
-    throw UsageError("there is no schema " + in_quotes(what) + known_names(what, {"case", "study"}));
+    throw UsageError("there is no schema " + in_quotes(what) +
+                     known_names(what, {"case", "study", "curves"}));
   streams.out << case_file_schema();
   return exit_done;
 }
@@ -168,7 +165,7 @@ const CommandOption set_option{"--set", "path=value",
 const Command inspect_entry{
     "inspect",
     "FILE...",
-    "lists the curves of STEP, IGES, DXF and BREP files; with --profile: the section that they draw",
+    "lists the curves of STEP, IGES, DXF, BREP and JSON files; with --profile: the section that they draw",
     1,
     any_number,
     {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
@@ -198,7 +195,8 @@ const Command export_entry{
     1,
     1,
     {{"--time", "T", "the nearest stored one is taken", true},
-     {"--to", "FILE", "STEP, IGES, DXF or BREP by its ending: .step, .igs, .dxf, .brep", true},
+     {"--to", "FILE",
+      "STEP, IGES, DXF, BREP, JSON or SVG by its ending: .step, .igs, .dxf, .brep, .json, .svg", true},
      {"--unit", "mm|m|inch", "of the file; otherwise mm"},
      {"--parameter", "free|material", "fewest control points, or the material coordinate; otherwise free"},
      {"--schema", "ap214|ap242", "of a STEP file; otherwise ap214"},
@@ -217,8 +215,13 @@ const Command compare_entry{
     compare_command};
 
 const Command schema_entry{
-    "schema", "[case | study]", "prints the JSON schema of the case file, or of the study file", 0, 1,
-    {},       schema_command};
+    "schema",
+    "[case | study | curves]",
+    "prints the JSON schema of the case file, of the study file, or of files of curves",
+    0,
+    1,
+    {},
+    schema_command};
 
 const Command report_entry{"report",
                            "RESULTS_DIR",
@@ -250,6 +253,15 @@ const Command manual_entry{"manual", "", "prints the manual page (roff)", 0, 0, 
 
 }  // namespace
 
+double quantity_argument(const std::string& option, const std::string& text, Dimension dimension) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) return number;
+  const ParsedQuantity quantity = parse_quantity(text, dimension);
+  if (!quantity.value) throw UsageError(option + ": " + quantity.error);
+  return *quantity.value;
+}
+
 int whole_number(const Arguments& arguments, const std::string& option, int otherwise, int least, int most) {
   if (!arguments.has(option)) return otherwise;
   const std::string text = arguments.value(option, "");
@@ -266,6 +278,8 @@ const std::vector<Command>& commands() {
                                              check_entry,
                                              run_entry,
                                              export_entry,
+                                             convert_entry(),
+                                             transform_entry(),
                                              compare_entry,
                                              schema_entry,
                                              report_entry,

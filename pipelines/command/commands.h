@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/case/quantity.h"
 #include "pipelines/diagnostics/exit_code.h"
 
 namespace nurbeam {
@@ -26,6 +27,9 @@ struct Arguments {
     return has(option) ? options.at(option) : std::vector<std::string>{};
   }
 };
+
+/// A number in SI units or a text with a unit, as the value of an option; throws UsageError for neither.
+double quantity_argument(const std::string& option, const std::string& text, Dimension dimension);
 
 /// The whole number that stands as the value of an option; throws UsageError for what is none from `least` to
 /// `most`.

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <ostream>
 
-#include "cad_import/import_curves.h"
 #include "nurbs/curve_distance.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/diagnostics/reading_progress.h"
 
 namespace nurbeam {
 
@@ -48,7 +48,7 @@ FarthestPoint farthest_point(const std::vector<ImportedCurve>& a, const std::vec
 
 int compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
                   std::optional<double> given_tolerance, std::ostream& out, std::ostream& err) {
-  const ImportReport reports[] = {import_curves(a), import_curves(b)};
+  const ImportReport reports[] = {read_with_progress(a, err), read_with_progress(b, err)};
   for (const ImportReport& report : reports) {
     print_diagnostics(err, report.diagnostics);
     if (!report.ok()) return 2;

@@ -1,14 +1,15 @@
 #include "pipelines/command/inspect.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
 
-#include "cad_import/import_curves.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
+#include "pipelines/diagnostics/reading_progress.h"
 #include "pipelines/diagnostics/utf8_text.h"
 #include "pipelines/model/axis_selection.h"
 #include "pipelines/section/section_profile.h"
@@ -168,6 +169,16 @@ void print_report(std::ostream& out, const ImportReport& report) {
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
+/// As the axis of a case may be given.
+Json nurbs_of(const NurbsCurve& curve) {
+  Json points = Json::array();
+  for (const auto& point : curve.control_points().colwise()) points.push_back(to_json(point.hnormalized()));
+  Json nurbs{{"degree", curve.degree()}, {"knots", curve.knots().knots()}, {"control_points", points}};
+  const Eigen::VectorXd weights = curve.control_points().row(3);
+  if (curve.is_rational()) nurbs["weights"] = std::vector<double>(weights.begin(), weights.end());
+  return nurbs;
+}
+
 Json to_json(const ImportReport& report) {
   Json curves = Json::array(), chains = Json::array(), points = Json::array(), diagnostics = Json::array();
   const std::vector<CurveRow> rows = rows_of(report);
@@ -188,7 +199,8 @@ Json to_json(const ImportReport& report) {
                       {"start [m]", to_json(row.start)},
                       {"end [m]", to_json(row.end)},
                       {"exact", row.exact},
-                      {"deviation [m]", row.deviation}});
+                      {"deviation [m]", row.deviation},
+                      {"nurbs", nurbs_of(report.curves[i].curve)}});
     if (!report.curves[i].is_centre_line()) continue;
     curves.back()["pipe_radius [m]"] = report.curves[i].pipe_radius;
     curves.back()["bore_radius [m]"] = report.curves[i].bore_radius;
@@ -223,7 +235,7 @@ int inspect_files(const std::vector<std::filesystem::path>& files, bool json, st
   bool readable = true;
   Json all = Json::array();
   for (const std::filesystem::path& file : files) {
-    const ImportReport report = import_curves(file);
+    const ImportReport report = read_with_progress(file, err);
     readable = readable && report.ok();
     print_diagnostics(err, report.diagnostics);
     if (json)
@@ -241,7 +253,7 @@ int inspect_files(const std::vector<std::filesystem::path>& files, bool json, st
 int inspect_profiles(const std::vector<std::filesystem::path>& files, std::ostream& out, std::ostream& err) {
   bool usable = true;
   for (const std::filesystem::path& file : files) {
-    const ImportReport report = import_curves(file);
+    const ImportReport report = read_with_progress(file, err);
     print_diagnostics(err, report.diagnostics);
     const ProfileReport drawn = report.ok() ? section_profile(report.curves, file.string()) : ProfileReport{};
     print_diagnostics(err, drawn.diagnostics);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "nurbs/curve_vertices.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/model/curve_choice.h"
 
 namespace nurbeam {
 
@@ -24,12 +24,6 @@ constexpr double negligible = 1e-12;
 
 AxisSelection failure(std::string key, std::string error) {
   return {{}, {}, std::move(key), std::move(error)};
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 // The diagonal of the box around all control points [m].
@@ -224,23 +218,6 @@ std::string several_chains(const std::vector<Chain>& chains, const ImportReport&
   return message;
 }
 
-std::vector<std::string> different(const ImportReport& report, std::string ImportedCurve::*property) {
-  std::set<std::string> values;
-  for (const ImportedCurve& curve : report.curves)
-    if (!(curve.*property).empty()) values.insert(curve.*property);
-  return {values.begin(), values.end()};
-}
-
-// Why no curve has the property; the file may have none at all of the kind.
-AxisSelection without(const std::string& key, const std::string& value, const ImportReport& report,
-                      std::string ImportedCurve::*property) {
-  const std::vector<std::string> known = different(report, property);
-  if (known.empty())
-    return failure(key, "is " + in_quotes(value) + ", but no curve of " + report.file + " has a " + key);
-  return failure(key, "no curve of " + report.file + " has the " + key + " " + in_quotes(value) +
-                          known_names(value, known));
-}
-
 // The one curve that is named; when several have the name, their chain.
 AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indices& candidates,
                     double tolerance) {
@@ -275,26 +252,10 @@ AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indi
                               "; choose one by its index");
 }
 
-// Whether the part's path is this one or ends with it.
-bool is_in_part(const ImportedCurve& curve, const std::string& part) {
-  return curve.part == part || curve.part.ends_with("/" + part);
-}
-
 AxisSelection chosen_chains(const AxisFile& axis, const ImportReport& report, double tolerance) {
-  Indices candidates = all_curves(report);
-  if (axis.part) {
-    candidates = those(report, candidates, [&](const ImportedCurve& c) { return is_in_part(c, *axis.part); });
-    if (candidates.empty()) return without("part", *axis.part, report, &ImportedCurve::part);
-  }
-  if (axis.layer) {
-    candidates = those(report, candidates, [&](const ImportedCurve& c) { return c.layer == *axis.layer; });
-    if (candidates.empty()) return without("layer", *axis.layer, report, &ImportedCurve::layer);
-  }
-  if (axis.colour) {
-    const std::string colour = lower_case(*axis.colour);
-    candidates = those(report, candidates, [&](const ImportedCurve& c) { return c.colour == colour; });
-    if (candidates.empty()) return without("colour", colour, report, &ImportedCurve::colour);
-  }
+  const ChosenCurves chosen = chosen_curves(axis.choice(), report);
+  if (!chosen.error.empty()) return failure(chosen.key, chosen.error);
+  const Indices& candidates = chosen.indices;
   if (axis.curve_index || axis.curve_name) return named(axis, report, candidates, tolerance);
   const std::vector<Chain> chains = chains_among(report, that_count(report, candidates), tolerance);
   if (chains.empty())

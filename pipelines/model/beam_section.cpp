@@ -6,6 +6,7 @@
 #include <string>
 
 #include "nurbs/number_text.h"
+#include "pipelines/model/curve_choice.h"
 #include "pipelines/section/stress_places.h"
 #include "pipelines/section/torsion_constant.h"
 
@@ -58,6 +59,18 @@ std::vector<ImportedCurve> sides_of(const std::vector<Eigen::Vector2d>& corners)
   return sides;
 }
 
+// Those of the file that the case chooses; none where an error says why.
+std::vector<ImportedCurve> drawn_curves(const CaseProfile& source, const std::string& where, CadFiles& files,
+                                        Findings& findings) {
+  const ImportReport& report = files.read(source.path, findings);
+  if (!report.ok()) return {};
+  const ChosenCurves chosen = chosen_curves(source.curves, report);
+  if (!chosen.error.empty()) findings.error(where + "." + chosen.key, chosen.error);
+  std::vector<ImportedCurve> curves;
+  for (const int i : chosen.indices) curves.push_back(report.curves[i]);
+  return curves;
+}
+
 // Its JSON path: there may be numbers instead.
 std::string place_of_profile(const CaseBeam& beam) {
   return beam.path + (beam.section.profile->outline.empty() ? ".section.profile" : ".section");
@@ -71,10 +84,11 @@ std::optional<BeamSection> beam_section(const CaseBeam& beam, int dimension, Cad
   const CaseProfile& source = *beam.section.profile;
   const bool by_numbers = !source.outline.empty();
   const std::string where = place_of_profile(beam);
-  if (!by_numbers && !files.read(source.path, findings).ok()) return {};
-  const std::vector<ImportedCurve> curves =
-      by_numbers ? sides_of(source.outline) : files.read(source.path, findings).curves;
+  const auto curves = by_numbers ? sides_of(source.outline) : drawn_curves(source, where, files, findings);
+  if (curves.empty()) return {};
   ProfileReport drawn = section_profile(curves, findings.where(where) + ": " + source.path.string());
+  if (!drawn.value && !by_numbers)
+    drawn.diagnostics.back().message += what_chooses(source.curves, files.read(source.path, findings));
   findings.append(drawn.diagnostics);
   if (!drawn.value) return {};
   const SectionProfile& profile = *drawn.value;

@@ -17,7 +17,7 @@ set(pipelines_may_include pipelines cad_import fem nurbs solver)
 set(python_may_include python pipelines cad_import fem nurbs solver)
 
 set(nurbs_floors . smooth)
-set(cad_import_floors report files . occt iges step dxf program)
+set(cad_import_floors report files . occt iges step ifc dxf json svg program)
 set(solver_floors algebra system steps rest tangents)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion sensitivity)
 set(fem_motion_floors record remesh events rest run)
@@ -35,7 +35,7 @@ set(homes
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/algebra/sparse_lu\\.cpp"
   "Spectra/.*"                                                                    "solver/algebra/eigenpairs\\.cpp"
   "pybind11/.*"                                                                   "python/.*"
-  "nlohmann/.*"                                                                   "pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/model_digest\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h)"
+  "nlohmann/.*"                                                                   "(cad_import/json/.*\\.cpp|pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/model_digest\\.cpp|results/run_summary\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h))"
   "openturns/.*"                                                                  "pipelines/study/openturns_study\\.h"
   "mpi\\.h"                                                                       "pipelines/study/mpi_engine\\.cpp"
   "iconv\\.h"                                                                       "cad_import/files/code_page\\.cpp"

@@ -7,6 +7,11 @@
 
 namespace nurbeam {
 
+/// What narrows a choice among the curves of a CAD file.
+struct CurveChoice {
+  std::optional<std::string> part = {}, layer = {}, colour = {};
+};
+
 /// Which curves of a CAD file.
 struct AxisFile {
   std::filesystem::path path;  ///< absolute
@@ -18,6 +23,8 @@ struct AxisFile {
   bool longest = false;
   bool all_chains = false;
   std::optional<double> gap = {};  ///< largest gap to close [m]
+
+  CurveChoice choice() const { return {part, layer, colour}; }
 };
 
 struct CaseAxis {
@@ -28,6 +35,12 @@ struct CaseAxis {
   };
   std::variant<File, NurbsCurve, Polyline, Arc> source;
 };
+
+/// What the keys of a CurveChoice mean.
+inline constexpr const char* only_part =
+    "only curves of this part (STEP), group (IGES) or block (DXF): its name, or the end of its path";
+inline constexpr const char* only_layer = "only curves of this layer (STEP, DXF) or level (IGES)";
+inline constexpr const char* only_colour = "only curves of this colour, \"#rrggbb\"";
 
 /// The shape of the "axis" of a beam; case_axis.h reads it.
 Shape axis_shape();

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "pipelines/case/fields.h"
+#include "pipelines/case/parts/axis.h"
 
 namespace nurbeam {
 
@@ -11,6 +12,7 @@ struct CaseProfile {
   bool x_in_plane = false;     ///< a planar model bends along the profile's x axis; else along y
   /// Given by numbers instead of a file: corners, anticlockwise [m].
   std::vector<Eigen::Vector2d> outline = {};
+  CurveChoice curves = {};  ///< of the file
 };
 
 struct CaseSection {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -69,6 +70,41 @@ TEST_F(SectionsTest, CheckShowsTheNumbersOfAMaterial) {
   EXPECT_NE(out.str().find("material  of bar: steel, density 7850 kg/m^3, Young's modulus 2.1e+11 Pa"),
             std::string::npos)
       << out.str();
+}
+
+// A rectangle of 40 mm by 20 mm on the layer "outline", an axis that crosses it on the layer "axes".
+const std::string drawing_with_axis = [] {
+  std::string text =
+      "0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES 0 LWPOLYLINE 8 outline 62 1 70 1 10 0 20 "
+      "0 10 40 20 0 10 40 20 20 10 0 20 20 0 LINE 8 axes 62 2 10 -5 20 10 11 45 21 10 0 ENDSEC 0 EOF ";
+  std::replace(text.begin(), text.end(), ' ', '\n');
+  return text;
+}();
+
+TEST_F(SectionsTest, ProfilesAreTheCurvesOfALayerOrColour) {
+  directory_.write("section.dxf", drawing_with_axis);
+  for (const char* choice : {R"("layer": "outline")", R"("colour": "#FF0000")"}) {
+    const BeamProperties chosen =
+        bar({std::string(R"(beams[0].section={"profile": {"file": "section.dxf", )") + choice + "}}"});
+    EXPECT_NEAR(chosen.axial_stiffness, 210e9 * 0.04 * 0.02, 1) << choice;
+    EXPECT_NEAR(chosen.bending_stiffness, 210e9 * 0.04 * std::pow(0.02, 3) / 12, 1e-6) << choice;
+  }
+}
+
+TEST_F(SectionsTest, ProfilesOfNoLayerOrOfSeveralNameWhatChooses) {
+  directory_.write("section.dxf", drawing_with_axis);
+  for (const auto& [choice, where, reason] :
+       {std::tuple{"", "beams[0].section.profile", "\"layer\" chooses among \"axes\", \"outline\""},
+        {R"(, "layer": "outlines")", "beams[0].section.profile.layer", "did you mean \"outline\"?"},
+        {R"(, "part": "bracket")", "beams[0].section.profile.part", "has a part"}}) {
+    const CaseFileReport report =
+        read_bar({std::string(R"(beams[0].section={"profile": {"file": "section.dxf")") + choice + "}}"});
+    const auto built = build_model(report.value.value());
+    EXPECT_FALSE(built.value);
+    EXPECT_TRUE(std::any_of(built.diagnostics.begin(), built.diagnostics.end(), [&](const Diagnostic& d) {
+      return d.where.find(where) != std::string::npos && d.message.find(reason) != std::string::npos;
+    })) << reason;
+  }
 }
 
 TEST_F(SectionsTest, MaterialsThatAreNoneAreRefused) {
