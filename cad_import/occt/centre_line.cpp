@@ -4,6 +4,7 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
@@ -14,6 +15,8 @@
 #include <stdexcept>
 
 #include "cad_import/occt/edge_curve.h"
+#include "cad_import/occt/pipe_joints.h"
+#include "cad_import/occt/pipe_piece.h"
 #include "cad_import/occt/pipe_wall.h"
 #include "cad_import/report/length_unit.h"
 #include "nurbs/curve_chain.h"
@@ -45,7 +48,7 @@ bool are_of_one_pipe(const Wall& a, const Wall& b) {
          have_one_centre_line(a, b);
 }
 
-// Walls that turn all the way round, put together from the faces' own.
+// The faces' walls put together that are of one pipe.
 std::vector<Wall> whole_walls(const std::vector<Wall>& walls) {
   std::vector<Wall> joined;
   for (const Wall& wall : walls) {
@@ -58,9 +61,12 @@ std::vector<Wall> whole_walls(const std::vector<Wall>& walls) {
       same->deviation = std::max(same->deviation, wall.deviation);
     }
   }
-  constexpr double missing = 1e-3;  // [rad]
-  std::erase_if(joined, [](const Wall& wall) { return wall.turn < 2 * pi - missing; });
   return joined;
+}
+
+bool turns_all_round(const Wall& wall) {
+  constexpr double missing = 1e-3;  // [rad]
+  return wall.turn >= 2 * pi - missing;
 }
 
 // Faces of no solid, as IGES has them, do not say on which side the material is: of those around one centre
@@ -77,7 +83,7 @@ void find_bores_of_shells(std::vector<Wall>& walls) {
                      1;
 }
 
-CentreLine centre_line(const Wall& wall, const std::vector<Wall>& walls, double tolerance) {
+CentreLine centre_line(const Wall& wall, double tolerance) {
   BRepBuilderAPI_MakeEdge edge(wall.centre, wall.first, wall.last);
   if (!edge.IsDone()) throw std::runtime_error("its centre line is no valid curve");
   ImportedCurve curve = imported_curve(edge.Edge(), tolerance);
@@ -87,9 +93,7 @@ CentreLine centre_line(const Wall& wall, const std::vector<Wall>& walls, double 
   curve.exact = wall.deviation <= round_off * wall.radius;
   curve.deviation = curve.exact ? 0 : wall.deviation / millimetres_per_metre;
   curve.pipe_radius = wall.radius / millimetres_per_metre;
-  for (const Wall& bore : walls)
-    if (bore.is_bore && bore.radius < wall.radius && have_one_centre_line(wall, bore))
-      curve.bore_radius = std::max(curve.bore_radius, bore.radius / millimetres_per_metre);
+  curve.bore_radius = wall.bore / millimetres_per_metre;
   return {std::move(curve), wall.face};
 }
 
@@ -110,19 +114,20 @@ std::vector<CentreLine> in_running_order(const std::vector<CentreLine>& lines) {
   return ordered;
 }
 
-std::string refusal(int face, const Wall& wall) {
-  return "face " + std::to_string(face) + " has a circular section of radius " + text_of(wall.radius) +
-         " mm but is not cut at right angles to its axis: it gives no centre line; name an edge or a free "
-         "curve as the axis";
+std::string refusal(const Wall& wall) {
+  return "face " + std::to_string(wall.face) + " has a circular section of radius " + text_of(wall.radius) +
+         " mm but its outline does not end a pipe: it gives no centre line; name an edge or a free curve as "
+         "the axis";
 }
 
-}  // namespace
+// The walls of all faces: those of whole pipes that are cut at right angles, and others.
+struct Walls {
+  std::vector<Wall> square, other;
+};
 
-CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance) {
-  TopTools_IndexedDataMapOfShapeListOfShape solids_of_faces;
-  TopExp::MapShapesAndAncestors(shape, TopAbs_FACE, TopAbs_SOLID, solids_of_faces);
-  CentreLines found;
-  std::vector<Wall> walls;
+Walls walls_of(const TopTools_IndexedDataMapOfShapeListOfShape& solids_of_faces, double tolerance) {
+  std::vector<Wall> rectangular;
+  Walls walls;
   for (int i = 1; i <= solids_of_faces.Extent(); ++i) {
     try {
       OCC_CATCH_SIGNALS
@@ -131,21 +136,95 @@ CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance) {
           wall_of(face, !solids_of_faces(i).IsEmpty(), tolerance * millimetres_per_metre);
       if (!wall) continue;
       wall->face = i;
-      if (is_rectangular(face, bounds_of(face)))
-        walls.push_back(*wall);
-      else if (!wall->is_bore && wall->turn > 2 * pi - 1e-3)
-        found.remarks.push_back(refusal(i, *wall));
+      (is_rectangular(face, bounds_of(face)) ? rectangular : walls.other).push_back(*wall);
     } catch (const Standard_Failure&) {
       continue;  // a face that OpenCASCADE cannot evaluate has no section; its edges are reported
     }
   }
-  walls = whole_walls(walls);
-  find_bores_of_shells(walls);
-  for (const Wall& wall : walls) {
-    if (wall.is_bore) continue;
+  walls.square = whole_walls(rectangular);
+  for (const Wall& wall : rectangular)
+    if (std::none_of(walls.square.begin(), walls.square.end(), [&](const Wall& whole) {
+          return turns_all_round(whole) && are_of_one_pipe(wall, whole);
+        }))
+      walls.other.push_back(wall);
+  std::erase_if(walls.square, [](const Wall& wall) { return !turns_all_round(wall); });
+  return walls;
+}
+
+// Whether a good part of the first is along the second.
+bool runs_along(const PipePiece& piece, const PipePiece& other) {
+  if (!have_one_axis(other.wall, piece.wall)) return false;
+  const double start = parameter_on(other.wall, piece.wall.centre->Value(piece.ends[0].middle));
+  const double end = parameter_on(other.wall, piece.wall.centre->Value(piece.ends[1].middle));
+  const double overlap = std::min(std::max(start, end), other.ends[1].middle) -
+                         std::max(std::min(start, end), other.ends[0].middle);
+  return 2 * overlap > std::abs(end - start);
+}
+
+// As of whole walls of shells, for pieces however they are cut.
+void find_bores_of_shells(std::vector<PipePiece>& pieces) {
+  for (PipePiece& piece : pieces)
+    if (!piece.wall.in_solid)
+      piece.wall.is_bore =
+          std::count_if(
+              pieces.begin(), pieces.end(),
+              [&](const PipePiece& other) {
+                return other.wall.radius > piece.wall.radius * (1 + same_within) && runs_along(piece, other);
+              }) %
+              2 ==
+          1;
+}
+
+// The outer walls of all pipes, each with the radius of its bore.
+std::vector<PipePiece> outer_pieces(const std::vector<Wall>& square, const std::vector<PipePiece>& other) {
+  std::vector<PipePiece> pieces;
+  const auto add = [&](PipePiece piece, const auto& has_bore) {
+    if (piece.wall.is_bore) return;
+    const auto take = [&](const PipePiece& bore) {
+      if (bore.wall.is_bore && bore.wall.radius < piece.wall.radius && has_bore(piece, bore))
+        piece.wall.bore = std::max(piece.wall.bore, bore.wall.radius);
+    };
+    for (const Wall& wall : square) take(square_piece(wall));
+    for (const PipePiece& bore : other) take(bore);
+    pieces.push_back(std::move(piece));
+  };
+  for (const Wall& wall : square)
+    add(square_piece(wall), [](const PipePiece& piece, const PipePiece& bore) {
+      const bool both_square = bore.ends[0].is_square() && bore.ends[1].is_square();
+      return both_square ? have_one_centre_line(piece.wall, bore.wall) : runs_along(piece, bore);
+    });
+  for (const PipePiece& piece : other) add(piece, runs_along);
+  return pieces;
+}
+
+bool is_piece_of(const Wall& wall, const std::vector<PipePiece>& pieces) {
+  return std::any_of(
+      pieces.begin(), pieces.end(),
+      [&](const PipePiece& piece) {
+        return std::abs(piece.wall.radius - wall.radius) <= tolerance_of(piece.wall, wall) &&
+               have_one_axis(piece.wall, wall);
+      });
+}
+
+}  // namespace
+
+CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance) {
+  TopTools_IndexedDataMapOfShapeListOfShape solids_of_faces;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_FACE, TopAbs_SOLID, solids_of_faces);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  CentreLines found;
+  Walls walls = walls_of(solids_of_faces, tolerance);
+  find_bores_of_shells(walls.square);
+  std::vector<PipePiece> pieces = pipe_pieces(walls.other, faces);
+  find_bores_of_shells(pieces);
+  for (const Wall& wall : walls.other)
+    if (!wall.is_bore && turns_all_round(wall) && !is_piece_of(wall, pieces))
+      found.remarks.push_back(refusal(wall));
+  for (const Wall& wall : joined_walls(outer_pieces(walls.square, pieces))) {
     try {
       OCC_CATCH_SIGNALS
-      found.lines.push_back(centre_line(wall, walls, tolerance));
+      found.lines.push_back(centre_line(wall, tolerance));
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {

@@ -12,6 +12,7 @@ struct Wall {
   Handle(Geom_Curve) centre;
   double first = 0, last = 0;
   double radius = 0;
+  double bore = 0;       // radius of its bore; 0 where it is solid
   double turn = 0;       // angle about the centre line [rad]
   double deviation = 0;  // of the wall from the pipe of this centre line and radius
   bool is_bore = false;

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "cad_import/step/local_origin.h"
 #include "cad_import/step/spine.h"
 #include "cad_import/step/swept_solid.h"
 
@@ -33,7 +34,12 @@ std::string text_of_all(const std::vector<Item>& items, const Shape& shape_of) {
 
 std::string brep_text(const std::vector<NamedCurve>& curves) {
   return text_of_all(
-      curves, [](const NamedCurve& curve) { return edge(curve); });
+      curves,
+      [](const NamedCurve& curve) {
+        const Eigen::Vector3d origin = local_origin(curve.curve);
+        if (origin.isZero()) return TopoDS_Shape(edge(curve));
+        return moved_back(edge({curve.name, moved_to_origin(curve.curve, origin), curve.part}), origin);
+      });
 }
 
 std::string brep_solid_text(const std::vector<NamedSolid>& solids) {

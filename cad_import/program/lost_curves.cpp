@@ -51,8 +51,7 @@ namespace {
 
 constexpr int most_named = 20;
 
-constexpr const char* without_place =
-    "it is a curve of a product definition whose place in the assembly, or unit, is not known";
+constexpr const char* without_place = "its place or its unit in the assembly is not known";
 
 using Entity = Handle(Standard_Transient);
 
@@ -351,11 +350,11 @@ LostCurves add_lost_curves(const XSControl_Reader& reader, const RestatedCurves&
       add_diagnostic(report, Severity::warning, label_of(model, entity), "not read: " + *why);
   }
   if (without_place_count > 0)
-    add_diagnostic(report, Severity::warning, first_without_place,
-                   "not read: " + std::string(without_place) + "; so are " +
-                       std::to_string(without_place_count) +
-                       " curve(s) in all: export the part that has them by itself, or as one part with the "
-                       "others");
+    add_diagnostic(
+        report, Severity::warning, first_without_place,
+        "not read: " + std::string(without_place) + "; so are " + std::to_string(without_place_count) +
+            " curve(s) in all, of product definitions that nothing places: export the part that has "
+            "them by itself, or place it in the assembly");
   if (named > most_named)
     add_diagnostic(report, Severity::warning, "",
                    std::to_string(named - most_named) + " more curves were not read");

@@ -277,7 +277,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
                    .per_segment = optional_integer(elements, "per_segment"),
                    .tolerance = optional_number(elements, "tolerance"),
                    .grading = number(elements, "grading", 0)};
-  beam.approximation_tolerance = number(json, "approximation_tolerance", beam.approximation_tolerance);
+  beam.approximation_tolerance = optional_number(json, "approximation_tolerance");
   beam.ring = flag(json, "closed");
   beam.corners = chosen<Corners>(json, "corners",
                                  {{"error", Corners::error},

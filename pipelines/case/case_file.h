@@ -115,7 +115,7 @@ struct CaseBeam {
   std::string name;
   std::string path;  ///< JSON path of this object, for messages
   CaseAxis axis;
-  double approximation_tolerance = 1e-6;  ///< for axes of degree above 3 [m]
+  std::optional<double> approximation_tolerance;  ///< for axes of degree above 3 [m]
   bool rigid = false;                     ///< a guide: no section, material or elements
   bool ring = false;                      ///< the axis is closed, and so is the beam
   Corners corners = Corners::error;

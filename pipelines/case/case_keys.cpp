@@ -237,7 +237,8 @@ Shape beam() {
         "else none",
         false, "corners"},
        {"approximation_tolerance", quantity(Dimension::length, positive()),
-        "greatest deviation of the cubics from an axis of degree above 3; 1e-6 m when omitted"}},
+        "greatest deviation of the cubics from an axis of degree above 3; 1e-6 m, and of its "
+        "length, when omitted"}},
       {{{"tension", "unstressed_length"}, false}});
 }
 

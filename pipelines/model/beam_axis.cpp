@@ -42,7 +42,7 @@ BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain&
   std::vector<NurbsCurve> curves;
   for (const ImportedCurve& curve : report.curves) curves.push_back(curve.curve);
   const std::string& name = report.curves[chain.curves[0]].name;
-  const BezierPath path = join(curves, chain, beam.approximation_tolerance);
+  const BezierPath path = join(curves, chain, approximation_tolerance(beam, curves, chain));
   const bool above_cubic =
       std::any_of(chain.curves.begin(), chain.curves.end(), [&](int i) { return curves[i].degree() > 3; });
   const int first = chain.curves.front();
@@ -59,8 +59,10 @@ BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, F
         if constexpr (std::is_same_v<Source, AxisFile>)
           return axis_from_file(beam, source, chain, files, findings);
         if constexpr (std::is_same_v<Source, NurbsCurve>)
-          return {beam.name, cubics_of(beam, BezierPath::from_nurbs(source, beam.approximation_tolerance),
-                                       source.degree() > 3, findings)};
+          return {
+              beam.name,
+              cubics_of(beam, BezierPath::from_nurbs(source, approximation_tolerance(beam, length(source))),
+                        source.degree() > 3, findings)};
         if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
           return {beam.name, arc_cubics(source.center, source.start, source.end, source.normal)};
         if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {
@@ -187,7 +189,8 @@ double sliver_length(const std::vector<RationalCubic>& segments) {
 // The axis without what has no length or no speed.
 std::vector<RationalCubic> regular(const CaseBeam& beam, const BeamAxis& axis, Findings& findings) {
   const RegularSegments regular =
-      regular_segments(axis.segments, sliver_length(axis.segments), beam.approximation_tolerance);
+      regular_segments(axis.segments, sliver_length(axis.segments),
+                       approximation_tolerance(beam, total_length(axis.segments)));
   if (regular.dropped + regular.replaced > 0)
     findings.warn(beam.path + ".axis",
                   origin_of(axis) + " was made regular: " + std::to_string(regular.dropped) +
@@ -248,6 +251,18 @@ std::vector<int> kept_corners(const CaseBeam& beam, const std::vector<RationalCu
 }
 
 }  // namespace
+
+double approximation_tolerance(const CaseBeam& beam, double length) {
+  constexpr double most = 1e-6;
+  return beam.approximation_tolerance.value_or(most * std::min(1.0, length));
+}
+
+double approximation_tolerance(const CaseBeam& beam, const std::vector<NurbsCurve>& curves,
+                               const Chain& chain) {
+  double sum = 0;
+  for (const int curve : chain.curves) sum += length(curves[static_cast<std::size_t>(curve)]);
+  return approximation_tolerance(beam, sum);
+}
 
 BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies, CadFiles& files,
                    Findings& findings) {

@@ -30,6 +30,13 @@ struct BeamAxis {
   std::optional<AxisSource> source = {};
 };
 
+/// How far the cubics of a beam's axis may lie from its curves of this length: as the case says, else 1e-6 m,
+/// and of the length at most [m].
+double approximation_tolerance(const CaseBeam& beam, double length);
+/// The same for the curves of a chain.
+double approximation_tolerance(const CaseBeam& beam, const std::vector<NurbsCurve>& curves,
+                               const Chain& chain);
+
 /// The axis that the case describes, of a beam whose curves are the chain (empty for an axis that is in no
 /// file) and on which so many bodies slide: its corners smoothed, its ends closed where it is a ring. With
 /// errors among the findings the result cannot be used.

@@ -13,6 +13,7 @@
 #include "pipelines/case/case_json.h"
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/model/beam_axis.h"
 #include "pipelines/model/cad_files.h"
 #include "pipelines/model/resolved_case.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 // ---- The curves that are drawn ----
 
-NurbsCurve curve_of_file(const AxisFile& axis, const Chain& chain, double tolerance, CadFiles& files,
+NurbsCurve curve_of_file(const CaseBeam& beam, const AxisFile& axis, const Chain& chain, CadFiles& files,
                          Findings& findings) {
   const ImportReport& report = files.read(axis.path, findings);
   if (chain.curves.size() == 1) {
@@ -31,7 +32,7 @@ NurbsCurve curve_of_file(const AxisFile& axis, const Chain& chain, double tolera
   }
   std::vector<NurbsCurve> curves;
   for (const ImportedCurve& curve : report.curves) curves.push_back(curve.curve);
-  return join(curves, chain, tolerance).to_nurbs();
+  return join(curves, chain, approximation_tolerance(beam, curves, chain)).to_nurbs();
 }
 
 NurbsCurve curve_of_cubics(std::vector<RationalCubic> cubics) {
@@ -55,7 +56,7 @@ NurbsCurve drawn_curve(const CaseBeam& beam, const Chain& chain, CadFiles& files
       [&](const auto& source) -> NurbsCurve {
         using Source = std::decay_t<decltype(source)>;
         if constexpr (std::is_same_v<Source, AxisFile>)
-          return curve_of_file(source, chain, beam.approximation_tolerance, files, findings);
+          return curve_of_file(beam, source, chain, files, findings);
         if constexpr (std::is_same_v<Source, NurbsCurve>) return source;
         if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) return curve_through(source);
         if constexpr (std::is_same_v<Source, CaseAxis::Arc>)

@@ -109,7 +109,7 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(cable.curvature, CurvatureMeasure::spatial);
   EXPECT_EQ(cable.corners, Corners::hinge);
   EXPECT_DOUBLE_EQ(cable.smooth_angle, 3 * std::numbers::pi / 180);
-  EXPECT_DOUBLE_EQ(cable.approximation_tolerance, 1e-6);
+  EXPECT_DOUBLE_EQ(cable.approximation_tolerance.value(), 1e-6);
   const auto& arc = std::get<CaseAxis::Arc>(c.beams.at(1).axis.source);
   EXPECT_EQ(arc.end, Eigen::Vector3d::UnitY());
   EXPECT_EQ(arc.normal, Eigen::Vector3d::UnitZ());
