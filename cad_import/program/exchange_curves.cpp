@@ -28,6 +28,7 @@
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/occt_session.h"
 #include "cad_import/occt/placed_curve.h"
+#include "cad_import/program/composite_ends.h"
 #include "cad_import/program/drawing_text.h"
 #include "cad_import/program/edge_senses.h"
 #include "cad_import/program/lost_curves.h"
@@ -80,7 +81,9 @@ FoundCurve found_curve(const TopoDS_Edge& edge, const STEPControl_Reader& reader
   throw std::runtime_error("OpenCASCADE does not tell which instance of the file an edge came from");
 }
 
-std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const TruePlaces& true_places,
+/// `same`: whether a curve of the file is the one that was drawn.
+template <class Same>
+std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const Same& same, const TruePlaces& true_places,
                                     const STEPControl_Reader& reader) {
   TopTools_IndexedDataMapOfShapeListOfShape faces;
   const TopoDS_Shape shape = reader.OneShape();
@@ -91,7 +94,7 @@ std::optional<FoundCurve> find_edge(const NurbsCurve& drawn, const TruePlaces& t
     if (BRep_Tool::Degenerated(edge)) continue;
     try {
       ImportedCurve curve = imported_curve(faces(i).IsEmpty() ? senses.of(edge) : edge, import_tolerance);
-      if (!true_places.put_in_place(edge.Location(), curve) || !is_same(curve.curve, drawn)) continue;
+      if (!true_places.put_in_place(edge.Location(), curve) || !same(curve.curve, drawn)) continue;
     } catch (const std::exception&) {
       continue;  // no valid curve, and so none that import_curves() gave
     }
@@ -312,8 +315,9 @@ Exchanged exchange_curves(const std::filesystem::path& source, const std::vector
     std::vector<std::optional<FoundCurve>> found;
     std::map<int, int> beams;  // by the instance of their curve
     for (const DeformedCurve& curve : curves) {
-      found.push_back(find_edge(curve.drawn, places, reader));
+      found.push_back(find_edge(curve.drawn, is_same, places, reader));
       if (!found.back()) found.back() = find_lost(curve.drawn, restated, reader);
+      if (!found.back()) found.back() = find_edge(curve.drawn, is_same_but_for_ends, places, reader);
       if (found.back() && !found.back()->piece) ++beams[found.back()->instance];
     }
     for (std::size_t i = 0; i < curves.size(); ++i) {

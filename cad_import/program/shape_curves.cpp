@@ -73,7 +73,9 @@ void add_edge(const TopoDS_Edge& edge, bool free, const std::string& label, cons
 
 }  // namespace
 
-void add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance, ImportReport& report) {
+CurvesOfEdges add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance,
+                        ImportReport& report) {
+  CurvesOfEdges curves;
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
@@ -83,9 +85,12 @@ void add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolera
     const Origin origin = known == facts.origins.end() ? Origin{} : known->second;
     if (origin.left_out) continue;
     const bool free = faces_of_edges(i).IsEmpty();
+    const std::size_t before = report.curves.size();
     add_edge(free ? facts.senses.of(edge) : edge, free, edge_label(i, origin), origin, facts, tolerance,
              report);
+    if (report.curves.size() > before) curves[edge.TShape().get()].push_back(before);
   }
+  return curves;
 }
 
 void add_centre_lines(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance,

@@ -2,6 +2,7 @@
 #include <TopoDS_Shape.hxx>
 
 #include "cad_import/occt/true_places.h"
+#include "cad_import/program/composite_ends.h"
 #include "cad_import/program/edge_senses.h"
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/program/part_names.h"
@@ -19,8 +20,10 @@ struct ShapeFacts {
 
 /// Adds the curves of all edges of a shape [mm] that are not degenerate, each once, with what is known of
 /// where they came from; what is unnamed itself goes by its part, but for the many edges of a solid. A
-/// warning names an edge whose curve is none, and approximations that are worse than `tolerance` [m].
-void add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance, ImportReport& report);
+/// warning names an edge whose curve is none, and approximations that are worse than `tolerance` [m]. Returns
+/// which they are.
+CurvesOfEdges add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance,
+                        ImportReport& report);
 
 /// Adds the centre lines of its pipes.
 void add_centre_lines(const TopoDS_Shape& shape, const ShapeFacts& facts, double tolerance,
