@@ -87,9 +87,9 @@ WriteCurvesRequest request_for(const CurvesFile& file) {
 
 CadFormat written_format(const fs::path& file) {
   const std::optional<CadFormat> format = format_by_name(file);
-  if (!format)
+  if (!format || *format == CadFormat::ifc)
     throw std::invalid_argument("the extension '" + file.extension().string() + "' of " + file.string() +
-                                " names no CAD format; known are .step .stp .igs .iges .dxf .brep .brp");
+                                " names no CAD format that is written; known are .step .stp .igs .iges .dxf .brep .brp");
   return *format;
 }
 

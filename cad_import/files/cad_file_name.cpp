@@ -22,7 +22,7 @@ std::optional<CadFormat> format_by_name(const std::filesystem::path& file) {
   static const std::map<std::string, CadFormat> known{{".step", CadFormat::step}, {".stp", CadFormat::step},
                                                       {".igs", CadFormat::iges},  {".iges", CadFormat::iges},
                                                       {".dxf", CadFormat::dxf},   {".brep", CadFormat::brep},
-                                                      {".brp", CadFormat::brep}};
+                                                      {".brp", CadFormat::brep},  {".ifc", CadFormat::ifc}};
   const auto at = known.find(ending_of_name(file));
   return at == known.end() ? std::nullopt : std::optional(at->second);
 }

@@ -7,7 +7,7 @@
 namespace nurbeam {
 
 /// What a CAD file may be, for messages.
-inline constexpr const char* cad_formats = "STEP, IGES, DXF or BREP";
+inline constexpr const char* cad_formats = "STEP, IGES, DXF, IFC or BREP";
 
 /// The format that the ending of a file's name says, in small letters or large ones; nothing where it says
 /// none.

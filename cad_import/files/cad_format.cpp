@@ -25,6 +25,16 @@ bool begins_as_step(std::string_view text) {
                     [](unsigned char c, char wanted) { return std::toupper(c) == wanted; });
 }
 
+/// Whether the schema that a STEP text names is one of IFC.
+bool has_ifc_schema(std::string_view text) {
+  constexpr std::size_t longest_header = 1 << 16;
+  std::string header(text.substr(0, longest_header));
+  std::transform(header.begin(), header.end(), header.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const std::size_t schema = header.find("FILE_SCHEMA"), name = header.find('\'', schema);
+  return schema != std::string::npos && name != std::string::npos && header.compare(name + 1, 3, "IFC") == 0;
+}
+
 std::string_view without_trailing_space(std::string_view text) {
   return text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
 }
@@ -79,7 +89,7 @@ std::optional<long> declared_count(std::string_view terminate, char section) {
 }  // namespace
 
 std::optional<CadFormat> format_of(const std::string& content) {
-  if (begins_as_step(content)) return CadFormat::step;
+  if (begins_as_step(content)) return has_ifc_schema(content) ? CadFormat::ifc : CadFormat::step;
   if (has_iges_section(first_line(content), 'S')) return CadFormat::iges;
   if (begins_as_dxf(content)) return CadFormat::dxf;
   if (const std::string_view text = without_leading_space(content);
@@ -89,7 +99,8 @@ std::optional<CadFormat> format_of(const std::string& content) {
 }
 
 std::optional<std::string> incompleteness(const std::string& content, CadFormat format) {
-  if (format == CadFormat::step && content.find("END-ISO-10303-21") == std::string::npos)
+  if (const bool is_step_text = format == CadFormat::step || format == CadFormat::ifc;
+      is_step_text && content.find("END-ISO-10303-21") == std::string::npos)
     return "the STEP file is truncated: it has no END-ISO-10303-21; export or copy it again";
   if (format == CadFormat::brep && content.find("\nTShapes ") == std::string::npos)
     return "the BREP file is truncated: it has no section TShapes; export or copy it again";

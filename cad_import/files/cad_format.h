@@ -6,7 +6,8 @@
 
 namespace nurbeam {
 
-/// The format of a file with this content: STEP begins with "ISO-10303-21", IGES has an 'S' in column 73 of
+/// The format of a file with this content: STEP begins with "ISO-10303-21", and IFC too, with a schema of
+/// that; IGES has an 'S' in column 73 of
 /// its first line, DXF begins with the pair "0", "SECTION", perhaps behind comments ("999"), BREP with
 /// "DBRep_DrawableShape" or "CASCADE Topology V"; nothing for any other content.
 std::optional<CadFormat> format_of(const std::string& content);

@@ -174,7 +174,8 @@ std::string tolerant_text(std::string content) {
   content = without_utf16(std::move(content));
   if (content.starts_with(byte_order_mark)) content.erase(0, byte_order_mark.size());
   if (has_no_line_ends(content)) return in_lines(content);
-  if (format_of(content) == CadFormat::step) return tolerant_step(as_utf8(std::move(content)));
+  if (const auto format = format_of(content); format == CadFormat::step || format == CadFormat::ifc)
+    return tolerant_step(as_utf8(std::move(content)));
   if (format_of(content) == CadFormat::dxf) return drawing_in_utf8(std::move(content));
   return content;
 }

@@ -20,6 +20,8 @@ Order order_of(std::string_view text) {
   return is_pair(1, 0) ? Order::big : Order::none;
 }
 
+}  // namespace
+
 void append_utf8(std::uint32_t point, std::string& out) {
   const auto tail = [&](int shift) { out += static_cast<char>(0x80 | ((point >> shift) & 0x3F)); };
   if (point < 0x80) {
@@ -36,8 +38,6 @@ void append_utf8(std::uint32_t point, std::string& out) {
     for (const int shift : {12, 6, 0}) tail(shift);
   }
 }
-
-}  // namespace
 
 std::string without_utf16(std::string text) {
   const Order order = order_of(text);

@@ -28,8 +28,10 @@ std::string answer(const WriteCurvesRequest& request) {
       return dxf_text(request.curves, request.unit);
     case CadFormat::brep:
       return brep_text(request.curves);
+    case CadFormat::ifc:
+      break;
   }
-  throw std::runtime_error("unknown format");
+  throw std::runtime_error("files of this format are not written");
 }
 std::string answer(const WriteFilesRequest& request) {
   std::vector<std::string> texts;

@@ -24,6 +24,7 @@
 #include <utility>
 
 #include "cad_import/dxf/read_dxf.h"
+#include "cad_import/ifc/read_ifc.h"
 #include "cad_import/iges/iges_global.h"
 #include "cad_import/iges/line_forms.h"
 #include "cad_import/occt/occt_session.h"
@@ -65,7 +66,7 @@ LostCurves add_curves(const XSControl_Reader& reader, const RestatedCurves& rest
   if (shape.IsNull()) return add_lost_curves(reader, restated, tolerance, report);
   const ShapeFacts facts{origins_of_edges_and_faces(reader, restated.refused, report),
                          part_names(reader, shape), true_places(reader, restated), EdgeSenses(reader)};
-  add_edges(shape, facts, tolerance, report);
+  join_composites(reader, add_edges(shape, facts, tolerance, report), report);
   LostCurves lost = add_lost_curves(reader, restated, tolerance, report);
   add_centre_lines(shape, facts, tolerance, report);
   return lost;
@@ -233,11 +234,12 @@ void read_iges(const std::string& given, double tolerance, const KeptEntities& k
 // -------------------------------------------------------------------------------------------------------
 // DXF and BREP
 
-void read_drawing(const std::string& content, ImportReport& report) {
-  ImportReport drawing = read_dxf(content);
+/// What a reader without OpenCASCADE has found.
+void take_over(ImportReport drawing, ImportReport& report) {
   for (Diagnostic& diagnostic : drawing.diagnostics)
     add_diagnostic(report, diagnostic.severity, diagnostic.where, diagnostic.message);
   drawing.file = report.file;
+  drawing.format = report.format;
   drawing.diagnostics = std::move(report.diagnostics);
   report = std::move(drawing);
   note_hidden(report);
@@ -275,7 +277,9 @@ void read_format(const std::string& content, CadFormat format, double tolerance,
     case CadFormat::iges:
       return read_iges(content, tolerance, kept, report);
     case CadFormat::dxf:
-      return read_drawing(content, report);
+      return take_over(read_dxf(content), report);
+    case CadFormat::ifc:
+      return take_over(read_ifc(content, tolerance), report);
     case CadFormat::brep:
       return read_brep(content, tolerance, report);
   }

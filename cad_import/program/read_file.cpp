@@ -41,7 +41,7 @@ ImportReport read_file_of(const fs::path& file, double tolerance, const KeptEnti
   if (!format) {
     return refusal(
         file,
-        "neither STEP (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
+        "neither STEP or IFC (must begin with ISO-10303-21) nor IGES (must have an 'S' in column 73 of its "
         "first line) nor DXF (must begin with a SECTION) nor OpenCASCADE's BREP (must begin with "
         "DBRep_DrawableShape or CASCADE Topology); export the curves as STEP AP214 or IGES");
   }

@@ -125,7 +125,8 @@ class StepCurves {
 
   /// What it is made of first.
   void restate(const Entity& entity) {
-    if (entity.IsNull() || !seen_.insert(entity.get()).second) return;
+    if (entity.IsNull() || remarks_.refused().contains(entity.get()) || !seen_.insert(entity.get()).second)
+      return;
     if (const auto offset = Handle(StepGeom_OffsetCurve3d)::DownCast(entity)) {
       restate(offset->BasisCurve());
       remarks_.attempt(entity, [&] { offset->SetDistance(offset->Distance() * use_unit(entity)); });

@@ -58,7 +58,7 @@ constexpr int no_format = -1;
 
 std::optional<CadFormat> read_format(ByteReader& in) {
   const int format = in.number<int>();
-  if (format < no_format || format > static_cast<int>(CadFormat::brep)) ByteReader::fail();
+  if (format < no_format || format > static_cast<int>(CadFormat::ifc)) ByteReader::fail();
   return format == no_format ? std::nullopt : std::optional(static_cast<CadFormat>(format));
 }
 

@@ -1,10 +1,60 @@
 #include "cad_import/step/encoded_text.h"
 
+#include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <sstream>
 
+#include "cad_import/files/utf16.h"
+
 namespace nurbeam {
+namespace {
+
+/// The number of so many hexadecimal digits; 0 where they are none.
+std::uint32_t hexadecimal(std::string_view digits) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  return error == std::errc() && end == digits.data() + digits.size() ? number : 0;
+}
+
+/// Characters of `width` digits each, up to "\\X0\\"; returns the place behind that.
+std::size_t decode_wide(std::string_view text, std::size_t at, std::size_t width, std::string& out) {
+  constexpr std::uint32_t high = 0xD800, low = 0xDC00, surrogates_end = 0xE000;
+  std::uint32_t first = 0;  // of a pair
+  for (; at + width <= text.size() && text[at] != '\\'; at += width) {
+    const std::uint32_t unit = hexadecimal(text.substr(at, width));
+    if (unit >= high && unit < low)
+      first = unit;
+    else if (unit >= low && unit < surrogates_end)
+      append_utf8(0x10000 + ((first - high) << 10) + (unit - low), out);
+    else
+      append_utf8(unit, out);
+  }
+  return std::min(at + 4, text.size());
+}
+
+}  // namespace
+
+std::string step_decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view rest = text.substr(i);
+    if (rest.starts_with("\\X2\\") || rest.starts_with("\\X4\\")) {
+      i = decode_wide(text, i + 4, rest[2] == '2' ? 4 : 8, out);
+    } else if (rest.starts_with("\\X\\") && rest.size() >= 5) {
+      append_utf8(hexadecimal(rest.substr(3, 2)), out);
+      i += 5;
+    } else if (rest.starts_with("\\S\\") && rest.size() >= 4) {
+      append_utf8(static_cast<unsigned char>(rest[3]) + 0x80U, out);
+      i += 4;
+    } else {
+      out += text[i];
+      i += rest.starts_with("\\\\") ? 2 : 1;
+    }
+  }
+  return out;
+}
 
 std::string step_encoded(std::string_view utf8) {
   std::ostringstream out;

@@ -11,4 +11,8 @@ std::string step_encoded(std::string_view utf8);
 /// doubled, and step_encoded().
 std::string step_string(std::string_view utf8);
 
+/// What the inside of a string of a STEP file says, as UTF-8: \X2\, \X4\, \X\, \S\ and doubled backslashes
+/// decoded.
+std::string step_decoded(std::string_view text);
+
 }  // namespace nurbeam

@@ -163,6 +163,60 @@ TEST(TolerantText, PackedFilesAreUnpacked) {
   expect_the_circle(zipped(circle, false));
 }
 
+/// In UTF-16, the lower byte first or last.
+std::string in_utf16(const std::string& text, bool little, bool with_mark) {
+  std::string bytes;
+  const auto add = [&](unsigned unit) {
+    const char low = static_cast<char>(unit & 0xFF), high = static_cast<char>(unit >> 8);
+    bytes += little ? low : high;
+    bytes += little ? high : low;
+  };
+  if (with_mark) add(0xFEFF);
+  for (const char c : text) add(static_cast<unsigned char>(c));
+  return bytes;
+}
+
+TEST(TolerantText, Utf16IsRead) {
+  for (const bool little : {true, false})
+    for (const bool with_mark : {true, false}) expect_the_circle(in_utf16(circle, little, with_mark));
+}
+
+TEST(TolerantText, SmallKeywordsAreRead) {
+  std::string text = circle;
+  bool quoted = false;
+  for (char& c : text) {
+    quoted ^= c == '\'';
+    if (!quoted) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  expect_the_circle(text);
+}
+
+/// An archive of stored files, with a central directory.
+std::string archive_of(const std::vector<std::pair<std::string, std::string>>& files) {
+  const auto little_endian = [](std::size_t value, int count) {
+    std::string bytes;
+    for (int i = 0; i < count; ++i, value >>= 8) bytes += static_cast<char>(value & 0xFF);
+    return bytes;
+  };
+  std::string archive, directory;
+  for (const auto& [name, content] : files) {
+    const std::string sizes = little_endian(content.size(), 4) + little_endian(content.size(), 4);
+    const std::string lengths = little_endian(name.size(), 2) + little_endian(0, 2);
+    directory += "PK\x01\x02" + little_endian(20, 2) + little_endian(20, 2) + little_endian(0, 12) + sizes +
+                 lengths + little_endian(0, 10) + little_endian(archive.size(), 4) + name;
+    archive += "PK\x03\x04" + little_endian(20, 2) + little_endian(0, 12) + sizes + lengths + name + content;
+  }
+  const std::size_t begin = archive.size();
+  return archive + directory + "PK\x05\x06" + little_endian(0, 4) + little_endian(files.size(), 2) +
+         little_endian(files.size(), 2) + little_endian(directory.size(), 4) + little_endian(begin, 4) +
+         little_endian(0, 2);
+}
+
+TEST(TolerantText, TheCadFileOfAnArchiveIsReadWhereverItStands) {
+  expect_the_circle(archive_of({{"a/", ""}, {"readme.txt", "hello"}, {"a/x.step", circle}}));
+  expect_the_circle(archive_of({{"readme.txt", "hello"}, {"drawing", circle}}));
+}
+
 TEST(TolerantText, DamagedAndMonstrousPackedFilesAreRefused) {
   const std::string gzip = deflated(circle, 15 + 16), zip = zipped(circle, true);
   for (const std::string& damaged :

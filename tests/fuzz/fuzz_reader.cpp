@@ -2,7 +2,7 @@
 // OpenCASCADE warm, and checks that every one of them ends in curves or in a diagnostic that names the file.
 // Now and then a good file is read by import_curves().
 //
-//   fuzz_reader step|iges|dxf|brep|packed [--seconds N] [--cases N] [--seed N] [--from DIRECTORY]
+//   fuzz_reader step|iges|dxf|ifc|brep|packed [--seconds N] [--cases N] [--seed N] [--from DIRECTORY]
 //               [--counts FILE] [--keep DIRECTORY]
 //
 // Without --seed it is the date, 20240521. --from names drawings to mutate besides; --counts adds up the
@@ -73,10 +73,10 @@ std::uint64_t today() {
 Options read_arguments(int count, char** arguments) {
   Options options;
   options.seed = today();
-  const std::set<std::string> formats{"step", "iges", "dxf", "brep", "packed"};
+  const std::set<std::string> formats{"step", "iges", "dxf", "ifc", "brep", "packed"};
   options.format = count < 2 ? "" : arguments[1];
   if (!formats.contains(options.format))
-    throw std::invalid_argument("expected step, iges, dxf, brep or packed");
+    throw std::invalid_argument("expected step, iges, dxf, ifc, brep or packed");
   for (int i = 2; i + 1 < count; i += 2) {
     const std::string key = arguments[i], value = arguments[i + 1];
     if (key == "--seconds")
@@ -115,6 +115,8 @@ std::string format_name(const std::string& content) {
       return "dxf";
     case CadFormat::brep:
       return "brep";
+    case CadFormat::ifc:
+      return "ifc";
   }
   return "";
 }

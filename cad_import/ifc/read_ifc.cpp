@@ -1,0 +1,331 @@
+#include "cad_import/ifc/read_ifc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <new>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "cad_import/ifc/fillets.h"
+#include "cad_import/ifc/ifc_curve.h"
+#include "cad_import/ifc/ifc_model.h"
+#include "cad_import/occt/placed_curve.h"
+#include "cad_import/report/length_unit.h"
+#include "nurbs/arc_length.h"
+#include "nurbs/number_text.h"
+
+namespace nurbeam {
+namespace {
+
+constexpr int most_warnings = 20, deepest_item = 50;
+constexpr std::size_t most_ifc_curves = 500'000;
+
+/// A product, and where the items of its shape stand.
+struct Product {
+  std::string name, layer = {};
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+};
+
+NurbsCurve straight(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  Eigen::Matrix3Xd ends(3, 2);
+  ends << from, to;
+  return make_nurbs_curve(KnotVector(1, {0, 0, 1, 1}), ends, Eigen::VectorXd::Ones(2));
+}
+
+class IfcReader {
+ public:
+  IfcReader(const std::string& content, double tolerance) : model_(content) {
+    report_.unit_in_metres = model_.length_unit() > 0 ? model_.length_unit() : 1;
+    tolerance_ = tolerance / report_.unit_in_metres;
+  }
+
+  ImportReport report() {
+    tell_unit();
+    read_layers();
+    read_products();
+    if (report_.curves.empty()) read_loose_curves();
+    tell_others();
+    return std::move(report_);
+  }
+
+ private:
+  void say(Severity severity, const std::string& where, const std::string& message) {
+    report_.diagnostics.push_back({severity, where, message});
+  }
+
+  void warn(int instance, const std::string& message) {
+    if (++warnings_ <= most_warnings) say(Severity::warning, model_.label(instance), message);
+  }
+
+  /// Does it; what it throws is a warning of the instance.
+  template <class Work>
+  void attempt(int instance, const Work& work) {
+    try {
+      work();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& e) {
+      warn(instance, std::string("not read: ") + e.what());
+    }
+  }
+
+  void tell_unit() {
+    const NamedUnit unit = named_unit(report_.unit_in_metres);
+    report_.unit = unit.name;
+    if (model_.length_unit() == 0)
+      say(Severity::warning, "", "the file declares no length unit; metres are assumed");
+    for (const int context : model_.with_prefix("IFCGEOMETRICREPRESENTATIONCONTEXT"))
+      attempt(context, [&] {
+        const IfcValue precision = model_.instance(context).at(3);
+        if (precision.kind == IfcValue::Kind::number && precision.number > 0)
+          report_.resolution = precision.number * report_.unit_in_metres;
+      });
+  }
+
+  void read_layers() {
+    for (const int layer : model_.with_prefix("IFCPRESENTATIONLAYER"))
+      attempt(
+          layer,
+          [&] {
+            const IfcValue assignment = model_.instance(layer);
+            for (const IfcValue& item : assignment.at(2).items)
+              layers_[item.reference] = assignment.at(0).text;
+          });
+  }
+
+  void read_products() {
+    std::set<int> shapes;
+    for (const int shape : model_.with_keyword("IFCPRODUCTDEFINITIONSHAPE")) shapes.insert(shape);
+    for (const int number : model_.numbers()) {
+      const std::string_view keyword = model_.keyword(number);
+      const bool is_alignment = keyword == "IFCALIGNMENT";
+      if ((shapes.empty() && !is_alignment) || keyword == "IFCALIGNMENTSEGMENT" || is_geometry(keyword))
+        continue;
+      attempt(number, [&] {
+        const IfcValue given = model_.instance(number);
+        const bool has_shape = given.at(6).is_reference() && shapes.contains(given.at(6).reference);
+        if (!has_shape && !is_alignment) return;
+        Product product{.name = given.at(2).text, .place = ifc_placement(model_, given.at(5))};
+        const std::size_t before = report_.curves.size();
+        if (has_shape) read_shape(given.at(6).reference, product);
+        if (is_alignment && report_.curves.size() == before)
+          add(ifc_alignment(model_, number, tolerance_), number, product);
+      });
+    }
+  }
+
+  /// Those that are many, and no products.
+  static bool is_geometry(std::string_view keyword) {
+    for (const std::string_view prefix :
+         {"IFCCARTESIANPOINT", "IFCDIRECTION", "IFCPOLYLOOP", "IFCFACE", "IFCAXIS2", "IFCPROPERTY", "IFCREL",
+          "IFCSTYLED", "IFCSHAPE", "IFCQUANTITY"})
+      if (keyword.starts_with(prefix)) return true;
+    return false;
+  }
+
+  void read_shape(int shape, Product product) {
+    std::vector<IfcValue> representations;
+    bool has_axis = false;
+    for (const IfcValue& reference : model_.instance(shape).at(2).items) {
+      representations.push_back(model_.at(reference));
+      has_axis |= representations.back().at(1).text == "Axis";
+    }
+    const std::vector<IfcValue> references = model_.instance(shape).at(2).items;
+    for (std::size_t i = 0; i < representations.size(); ++i) {
+      const std::string& identifier = representations[i].at(1).text;
+      if (identifier == "Box" || (identifier == "FootPrint" && has_axis)) continue;
+      const auto layer = layers_.find(references[i].reference);
+      product.layer = layer == layers_.end() ? "" : layer->second;
+      for (const IfcValue& item : representations[i].at(3).items) read_item(item.reference, product, 0);
+    }
+  }
+
+  void read_item(int item, const Product& product, int depth) {
+    attempt(
+        item,
+        [&] {
+          if (depth > deepest_item) throw std::runtime_error("it is made of itself: a circle of references");
+          const std::string_view keyword = model_.keyword(item);
+          if (keyword == "IFCMAPPEDITEM") return read_mapped(model_.instance(item), product, depth);
+          if (keyword == "IFCGEOMETRICSET" || keyword == "IFCGEOMETRICCURVESET")
+            for (const IfcValue& element : model_.instance(item).at(0).items)
+              read_item(element.reference, product, depth + 1);
+          else if (keyword.starts_with("IFCSWEPTDISKSOLID"))
+            add_pipe(swept_disk(item), item, product);
+          else if (keyword == "IFCEXTRUDEDAREASOLID" && add_extruded_circle(item, product))
+            return;
+          else if (is_ifc_curve(keyword))
+            add(ifc_curves(model_, item, tolerance_), item, product);
+          else
+            ++others_[std::string(keyword)];
+        });
+  }
+
+  void read_mapped(const IfcValue& mapped, const Product& product, int depth) {
+    const IfcValue source = model_.at(mapped.at(0));
+    Product moved = product;
+    moved.place =
+        product.place * ifc_placement(model_, mapped.at(1)) * ifc_placement(model_, source.at(0)).inverse();
+    for (const IfcValue& item : model_.at(source.at(1)).at(3).items)
+      read_item(item.reference, moved, depth + 1);
+  }
+
+  /// A pipe: its centre line, and its radii in the file's unit.
+  struct Pipe {
+    std::vector<ImportedCurve> centre;
+    double radius, bore = 0;
+  };
+
+  Pipe swept_disk(int item) {
+    const IfcValue solid = model_.instance(item);
+    if (!solid.at(0).is_reference()) throw std::runtime_error("it has no directrix");
+    Pipe pipe{ifc_curves(model_, solid.at(0).reference, tolerance_), solid.at(1).as_number()};
+    if (solid.at(2).kind != IfcValue::Kind::none) pipe.bore = solid.at(2).as_number();
+    if (solid.text == "IFCSWEPTDISKSOLIDPOLYGONAL" && solid.at(5).kind != IfcValue::Kind::none)
+      round_corners(pipe, solid.at(5).as_number());
+    if (!is_whole(solid, pipe.centre))
+      warn(item, "its StartParam and EndParam cut its directrix, which is read as a whole");
+    return pipe;
+  }
+
+  static void round_corners(Pipe& pipe, double radius) {
+    if (!(radius > 0) || pipe.centre.size() != 1 || pipe.centre[0].curve.degree() != 1) return;
+    std::vector<ImportedCurve> rounded;
+    for (NurbsCurve& curve : with_fillets(pipe.centre[0].curve, radius))
+      rounded.push_back({.entity = "", .curve = std::move(curve)});
+    pipe.centre = std::move(rounded);
+  }
+
+  /// Whether its parameters go from 0 to as many as it has pieces, or are not there.
+  static bool is_whole(const IfcValue& solid, const std::vector<ImportedCurve>& directrix) {
+    if (solid.at(3).kind == IfcValue::Kind::none && solid.at(4).kind == IfcValue::Kind::none) return true;
+    const double first = solid.at(3).kind == IfcValue::Kind::none ? 0 : solid.at(3).as_number();
+    if (first != 0 || solid.at(4).kind == IfcValue::Kind::none) return first == 0;
+    const double last = solid.at(4).as_number();
+    double pieces = 0, lengths = 0, parameters = 0;
+    for (const ImportedCurve& curve : directrix) {
+      pieces += curve.curve.degree() == 1 ? curve.curve.knots().end() - curve.curve.knots().start() : 1;
+      parameters += curve.curve.knots().end() - curve.curve.knots().start();
+      lengths += length(curve.curve);
+    }
+    constexpr double same = 1e-4;  // as files round them
+    for (const double whole : {pieces, lengths, parameters, 1.0})
+      if (std::abs(last - whole) <= same * whole) return true;
+    return false;
+  }
+
+  /// A round bar or tube, cut at right angles; false for any other.
+  bool add_extruded_circle(int item, const Product& product) {
+    const IfcValue solid = model_.instance(item), profile = model_.at(solid.at(0));
+    if (!profile.text.starts_with("IFCCIRCLE")) return false;
+    const Eigen::Vector3d along = ifc_vector(model_.at(solid.at(2)).at(0)).normalized();
+    if (!(std::abs(along.z()) > 1 - 1e-9)) return false;
+    const Eigen::Affine3d place = ifc_placement(model_, solid.at(1)) * ifc_placement(model_, profile.at(2));
+    Pipe pipe{{}, profile.at(3).as_number()};
+    if (profile.text == "IFCCIRCLEHOLLOWPROFILEDEF") pipe.bore = pipe.radius - profile.at(4).as_number();
+    const Eigen::Vector3d end(0, 0, along.z() * solid.at(3).as_number());
+    pipe.centre.push_back({.entity = "", .curve = straight(place.translation(), place * end)});
+    add_pipe(std::move(pipe), item, product);
+    return true;
+  }
+
+  void add_pipe(Pipe pipe, int item, const Product& product) {
+    if (!(pipe.radius > 0))
+      throw std::runtime_error("its radius is " + text_of(pipe.radius) + "; it must be positive");
+    for (ImportedCurve& curve : pipe.centre) {
+      curve.entity = "centre line";
+      curve.free = false;
+      curve.pipe_radius = pipe.radius;
+      curve.bore_radius = pipe.bore > 0 && pipe.bore < pipe.radius ? pipe.bore : 0;
+    }
+    add(std::move(pipe.centre), item, product);
+  }
+
+  /// In metres, where the product stands.
+  void add(std::vector<ImportedCurve> curves, int item, const Product& product) {
+    const double unit = report_.unit_in_metres;
+    const double scale = unit * std::cbrt(std::abs(product.place.linear().determinant()));
+    const Eigen::Affine3d to_world = Eigen::Scaling(unit) * product.place;
+    const auto layer = layers_.find(item);
+    for (ImportedCurve& curve : curves) {
+      if (report_.curves.size() >= most_ifc_curves)
+        throw std::length_error("the file has more than " + std::to_string(most_ifc_curves) + " curves");
+      curve.curve = placed(curve.curve, to_world);
+      check_size(curve.curve);
+      curve.name = product.name;
+      curve.layer = layer == layers_.end() ? product.layer : layer->second;
+      for (double* size : {&curve.deviation, &curve.pipe_radius, &curve.bore_radius}) *size *= scale;
+      report_.curves.push_back(std::move(curve));
+    }
+  }
+
+  static void check_size(const NurbsCurve& curve) {
+    constexpr double largest = 1e15;
+    if (!(curve.control_points().cwiseAbs().maxCoeff() <= largest))
+      throw std::runtime_error("it has a coordinate above " + text_of(largest) + " m");
+    if (!(curve.control_points().row(3).minCoeff() > 0))
+      throw std::runtime_error("its weights must be positive");
+    if (const double size = length(curve); !(std::isfinite(size) && size > 0))
+      throw std::runtime_error("its length is " + text_of(size) + " m; it must be finite and positive");
+  }
+
+  /// Curves that nothing refers to.
+  void read_loose_curves() {
+    std::set<int> used;
+    std::vector<int> curves;
+    for (const int number : model_.numbers())
+      attempt(
+          number,
+          [&] {
+            if (is_ifc_curve(model_.keyword(number))) curves.push_back(number);
+            const IfcValue given = model_.instance(number);
+            add_references(given, used);
+          });
+    std::erase_if(curves, [&](int number) { return used.contains(number); });
+    for (const int number : curves)
+      attempt(number, [&] { add(ifc_curves(model_, number, tolerance_), number, {}); });
+    if (!report_.curves.empty())
+      say(Severity::warning, model_.label(curves.front()),
+          "no product of the file holds it, and it is read in its own coordinates; so are " +
+              std::to_string(report_.curves.size()) + " curve(s) in all");
+  }
+
+  static void add_references(const IfcValue& value, std::set<int>& used) {
+    if (value.is_reference()) used.insert(value.reference);
+    for (const IfcValue& item : value.items) add_references(item, used);
+  }
+
+  void tell_others() {
+    if (warnings_ > most_warnings)
+      say(Severity::warning, "", std::to_string(warnings_ - most_warnings) + " more items were not read");
+    if (others_.empty()) return;
+    int count = 0;
+    std::string kinds;
+    for (const auto& [kind, number] : others_) {
+      count += number;
+      kinds += (kinds.empty() ? "" : ", ") + kind + " " + std::to_string(number);
+    }
+    say(Severity::note, "",
+        std::to_string(count) +
+            " items of shapes are no curves, swept disks or extruded circles, and are not read: " + kinds);
+  }
+
+  IfcModel model_;
+  double tolerance_ = 0;
+  ImportReport report_;
+  std::map<int, std::string> layers_;  // by item or representation
+  std::map<std::string, int> others_;  // by kind
+  int warnings_ = 0;
+};
+
+}  // namespace
+
+ImportReport read_ifc(const std::string& content, double tolerance) {
+  return IfcReader(content, tolerance).report();
+}
+
+}  // namespace nurbeam
