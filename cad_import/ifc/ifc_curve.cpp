@@ -88,10 +88,10 @@ class Reader {
     Curves curves;
     for (AlignmentCurve& part :
          alignment_curves(alignment.plan, alignment.grade, alignment.begin, tolerance_)) {
-      ImportedCurve curve = named(part.curve.degree() == 1   ? "line"
-                                  : part.curve.is_rational() ? "circle"
-                                                             : "other",
-                                  std::move(part.curve));
+      const char* const kind = part.curve.degree() == 1   ? "line"
+                               : part.curve.is_rational() ? "circle"
+                                                          : "other";
+      ImportedCurve curve = named(kind, std::move(part.curve));
       curve.deviation = part.deviation;
       curve.exact = curve.entity != "other";
       curves.push_back(std::move(curve));

@@ -185,10 +185,10 @@ class IfcReader {
     if (!solid.at(0).is_reference()) throw std::runtime_error("it has no directrix");
     Pipe pipe{ifc_curves(model_, solid.at(0).reference, tolerance_), solid.at(1).as_number()};
     if (solid.at(2).kind != IfcValue::Kind::none) pipe.bore = solid.at(2).as_number();
-    if (solid.text == "IFCSWEPTDISKSOLIDPOLYGONAL" && solid.at(5).kind != IfcValue::Kind::none)
-      round_corners(pipe, solid.at(5).as_number());
     if (!is_whole(solid, pipe.centre))
       warn(item, "its StartParam and EndParam cut its directrix, which is read as a whole");
+    if (solid.text == "IFCSWEPTDISKSOLIDPOLYGONAL" && solid.at(5).kind != IfcValue::Kind::none)
+      round_corners(pipe, solid.at(5).as_number());
     return pipe;
   }
 

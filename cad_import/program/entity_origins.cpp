@@ -27,14 +27,20 @@
 namespace nurbeam {
 namespace {
 
-std::string step_name(const Handle(Standard_Transient) & entity) {
-  const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
-  if (item.IsNull()) return "";
-  const std::string own = trimmed_text(item->Name());
-  if (!own.empty()) return own;
-  if (const auto edge = Handle(StepShape_EdgeCurve)::DownCast(entity)) return step_name(edge->EdgeGeometry());
-  if (const auto curve = Handle(StepGeom_TrimmedCurve)::DownCast(entity))
-    return step_name(curve->BasisCurve());
+// What an edge or a trimmed curve without a name is made of may have one.
+Handle(Standard_Transient) below(const Handle(Standard_Transient) & entity) {
+  if (const auto edge = Handle(StepShape_EdgeCurve)::DownCast(entity)) return edge->EdgeGeometry();
+  if (const auto curve = Handle(StepGeom_TrimmedCurve)::DownCast(entity)) return curve->BasisCurve();
+  return nullptr;
+}
+
+std::string step_name(Handle(Standard_Transient) entity) {
+  constexpr int deepest_name = 100;
+  for (int depth = 0; depth < deepest_name; ++depth, entity = below(entity)) {
+    const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
+    if (item.IsNull()) return "";
+    if (std::string own = trimmed_text(item->Name()); !own.empty()) return own;
+  }
   return "";
 }
 
