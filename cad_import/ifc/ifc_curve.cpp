@@ -66,7 +66,8 @@ class Reader {
   Reader(const IfcModel& model, double tolerance) : model_(model), tolerance_(tolerance) {}
 
   Curves curves(int instance, int depth) const {
-    if (depth > deepest)
+    constexpr int most_visited = 100'000;
+    if (depth > deepest || ++visited_ > most_visited)
       throw std::runtime_error("it is nested too deeply, or made of itself: a circle of references");
     const IfcValue given = model_.instance(instance);
     const std::string& kind = given.text;
@@ -186,8 +187,10 @@ class Reader {
     const double begin = forward ? angle(first) : angle(last);
     double end = forward ? angle(last) : angle(first);
     constexpr double one_place = 1e-12;
-    while (end <= begin + one_place) end += 2 * pi;
-    while (end > begin + 2 * pi + one_place) end -= 2 * pi;
+    if (!(end > begin + one_place && end <= begin + 2 * pi + one_place)) {
+      const double turn = std::fmod(end - begin, 2 * pi);
+      end = begin + (turn > one_place ? turn : turn + 2 * pi);
+    }
     ImportedCurve curve = conic(basis, begin, end);
     if (!forward) curve.curve = curve.curve.reversed();
     return curve;
@@ -240,6 +243,7 @@ class Reader {
 
   const IfcModel& model_;
   double tolerance_;
+  mutable int visited_ = 0;
 };
 
 }  // namespace

@@ -119,11 +119,12 @@ void IfcModel::read_units() {
     }
 }
 
-double IfcModel::unit_of(const IfcValue& unit) const {
+double IfcModel::unit_of(const IfcValue& unit, int depth) const {
+  constexpr int deepest_unit = 10;
   if (unit.text == "IFCSIUNIT") return prefix_of(unit.at(2).text);
-  if (!unit.text.starts_with("IFCCONVERSIONBASEDUNIT")) return 0;
+  if (!unit.text.starts_with("IFCCONVERSIONBASEDUNIT") || depth > deepest_unit) return 0;
   const IfcValue measure = at(unit.at(3));
-  return measure.at(0).as_number() * unit_of(at(measure.at(1)));
+  return measure.at(0).as_number() * unit_of(at(measure.at(1)), depth + 1);
 }
 
 IfcValue IfcModel::instance(int number) const {

@@ -33,7 +33,7 @@ class IfcModel {
 
  private:
   void read_units();
-  double unit_of(const IfcValue& unit) const;
+  double unit_of(const IfcValue& unit, int depth = 0) const;
 
   std::map<int, std::string_view> instances_;
   double length_unit_ = 0, angle_unit_ = 1;

@@ -23,10 +23,10 @@ Eigen::Vector2d direction(double heading) { return {std::cos(heading), std::sin(
 Eigen::Vector2d run(const PlanElement& element, double from, double to) {
   constexpr std::array<double, 3> nodes{0, 0.5384693101056831, 0.9061798459386640};
   constexpr std::array<double, 3> weights{0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
-  constexpr double most_turn = 0.1;  // [rad]
+  constexpr double turn_of_piece = 0.1;  // [rad]
   const double sharpest = std::max(std::abs(element.start_curvature), std::abs(element.end_curvature));
   const int pieces =
-      std::clamp(static_cast<int>(std::ceil(sharpest * std::abs(to - from) / most_turn)), 1, 100'000);
+      std::clamp(static_cast<int>(std::ceil(sharpest * std::abs(to - from) / turn_of_piece)), 1, 100'000);
   const double half = (to - from) / (2 * pieces);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (int piece = 0; piece < pieces; ++piece) {
@@ -138,7 +138,7 @@ double deviation_of(const NurbsCurve& curve, const Part& part, int count) {
 AlignmentCurve curve_of(const Part& part, double tolerance) {
   if (part.is_straight()) return {line(part)};
   if (part.is_level_arc()) return {arc(part)};
-  constexpr int most = 4096;
+  constexpr int most = 1024;
   for (int count = 2;; count *= 2) {
     NurbsCurve curve = cubics(part, count);
     const double deviation = deviation_of(curve, part, count);
@@ -169,6 +169,10 @@ std::vector<AlignmentCurve> alignment_curves(const std::vector<PlanElement>& pla
   for (const PlanElement& element : plan) {
     if (!(element.length >= 0 && std::isfinite(element.length)))
       throw std::runtime_error("the length of an element is none");
+    constexpr double most_turn = 100;  // [rad]
+    if (const double sharpest = std::max(std::abs(element.start_curvature), std::abs(element.end_curvature));
+        !(sharpest * element.length <= most_turn))
+      throw std::runtime_error("an element of it turns by more than 100 rad");
     if (element.length == 0) continue;  // the last of an alignment, which only tells its end
     const std::vector<double> breaks = breaks_of(element, grade, before);
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {

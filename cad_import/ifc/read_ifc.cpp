@@ -23,6 +23,7 @@ namespace {
 
 constexpr int most_warnings = 20, deepest_item = 50;
 constexpr std::size_t most_ifc_curves = 500'000;
+constexpr int most_items = 2'000'000;  // those that are placed again and again counted as often
 
 /// A product, and where the items of its shape stand.
 struct Product {
@@ -145,24 +146,23 @@ class IfcReader {
   }
 
   void read_item(int item, const Product& product, int depth) {
-    attempt(
-        item,
-        [&] {
-          if (depth > deepest_item) throw std::runtime_error("it is made of itself: a circle of references");
-          const std::string_view keyword = model_.keyword(item);
-          if (keyword == "IFCMAPPEDITEM") return read_mapped(model_.instance(item), product, depth);
-          if (keyword == "IFCGEOMETRICSET" || keyword == "IFCGEOMETRICCURVESET")
-            for (const IfcValue& element : model_.instance(item).at(0).items)
-              read_item(element.reference, product, depth + 1);
-          else if (keyword.starts_with("IFCSWEPTDISKSOLID"))
-            add_pipe(swept_disk(item), item, product);
-          else if (keyword == "IFCEXTRUDEDAREASOLID" && add_extruded_circle(item, product))
-            return;
-          else if (is_ifc_curve(keyword))
-            add(ifc_curves(model_, item, tolerance_), item, product);
-          else
-            ++others_[std::string(keyword)];
-        });
+    if (++visited_ > most_items) return;
+    attempt(item, [&] {
+      if (depth > deepest_item) throw std::runtime_error("it is made of itself: a circle of references");
+      const std::string_view keyword = model_.keyword(item);
+      if (keyword == "IFCMAPPEDITEM") return read_mapped(model_.instance(item), product, depth);
+      if (keyword == "IFCGEOMETRICSET" || keyword == "IFCGEOMETRICCURVESET")
+        for (const IfcValue& element : model_.instance(item).at(0).items)
+          read_item(element.reference, product, depth + 1);
+      else if (keyword.starts_with("IFCSWEPTDISKSOLID"))
+        add_pipe(swept_disk(item), item, product);
+      else if (keyword == "IFCEXTRUDEDAREASOLID" && add_extruded_circle(item, product))
+        return;
+      else if (is_ifc_curve(keyword))
+        add(ifc_curves(model_, item, tolerance_), item, product);
+      else
+        ++others_[std::string(keyword)];
+    });
   }
 
   void read_mapped(const IfcValue& mapped, const Product& product, int depth) {
@@ -300,6 +300,8 @@ class IfcReader {
   }
 
   void tell_others() {
+    if (report_.curves.size() >= most_ifc_curves || visited_ > most_items)
+      say(Severity::warning, "", "the file repeats its items too often, and the rest of them is not read");
     if (warnings_ > most_warnings)
       say(Severity::warning, "", std::to_string(warnings_ - most_warnings) + " more items were not read");
     if (others_.empty()) return;
@@ -319,7 +321,7 @@ class IfcReader {
   ImportReport report_;
   std::map<int, std::string> layers_;  // by item or representation
   std::map<std::string, int> others_;  // by kind
-  int warnings_ = 0;
+  int warnings_ = 0, visited_ = 0;
 };
 
 }  // namespace

@@ -142,6 +142,7 @@ std::vector<Entity> lost_curves(const XSControl_Reader& reader, const RestatedCu
   };
   add_references(origins, true, graph, used);
   add_references({restated.parents.begin(), restated.parents.end()}, true, graph, used);
+  add_references({restated.refused.begin(), restated.refused.end()}, true, graph, used);
   std::vector<Entity> lost;
   for (int i = 1; i <= model.NbEntities(); ++i) {
     const Entity entity = model.Value(i);

@@ -118,6 +118,38 @@ TEST(NearlyConsistent, AnArcBetweenLinesClosesTheChain) {
     EXPECT_LE((end_of(report.curves[i].curve) - start_of(report.curves[i + 1].curve)).norm(), 1e-12);
 }
 
+// A gap of 0.01 mm between lines of 10 mm, in IGES and STEP; one of 1 mm stays.
+TEST(NearlyConsistent, PartsOfACompositeCurveMeet) {
+  constexpr int part = 10000;
+  const auto iges = [&](const std::string& x) {
+    return iges_text_of({{.type = 110, .parameters = "110,0.,0.,0.,10.,0.,0.;", .status = part},
+                         {.type = 110, .parameters = "110," + x + ",0.,0.,20.,5.,0.;", .status = part},
+                         {.type = 102, .parameters = "102,2,1,3;"}});
+  };
+  const auto step = [](const std::string& x) {
+    return step_text_of("#100",
+                        "#100 = COMPOSITE_CURVE('c',(#101,#102),.F.);\n"
+                        "#101 = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#103);\n"
+                        "#102 = COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#104);\n"
+                        "#103 = POLYLINE('',(#12,#105));\n#104 = POLYLINE('',(#106,#107));\n"
+                        "#105 = CARTESIAN_POINT('',(10.,0.,0.));\n#106 = CARTESIAN_POINT('',(" +
+                            x + ",0.,0.));\n#107 = CARTESIAN_POINT('',(20.,5.,0.));\n");
+  };
+  for (const std::string& file : {iges("10.01"), step("10.01")}) {
+    const ImportReport report = imported(file);
+    ASSERT_EQ(report.curves.size(), 2U);
+    for (const Eigen::Vector3d& end : {end_of(report.curves[0].curve), start_of(report.curves[1].curve)})
+      EXPECT_LE((1e3 * end - Eigen::Vector3d(10.005, 0, 0)).norm(), 1e-12);
+    ASSERT_EQ(notes_of(report).size(), 1U);
+    EXPECT_NE(notes_of(report)[0].message.find("0.01 mm"), std::string::npos);
+  }
+  for (const std::string& file : {iges("11."), step("11.")}) {
+    const ImportReport report = imported(file);
+    ASSERT_EQ(report.curves.size(), 2U);
+    EXPECT_NEAR(1e3 * start_of(report.curves[1].curve).x(), 11, 1e-12);
+  }
+}
+
 // Ends off the curve of the equation by 0.1 % of the semi-axes, of each kind of conic.
 TEST(NearlyConsistent, ConicsGoThroughTheirEnds) {
   const double off = 1.001;
