@@ -93,7 +93,7 @@ TEST(Gradient, IsRefusedWhereThereIsNone) {
   };
   EXPECT_EQ(refused(slide(R"json("type": "dynamic", "end_time": 0.1, "step": 0.01)json"), mass), "");
   EXPECT_NE(
-      refused(slide(R"json("type": "dynamic", "end_time": 0.1, "integrator": {"type": "ida"})json"), mass)
+      refused(slide(R"json("type": "dynamic", "end_time": 0.1, "integrator": {"type": "radau"})json"), mass)
           .find("generalized-alpha"),
       std::string::npos);
   EXPECT_NE(
