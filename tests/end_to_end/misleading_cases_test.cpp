@@ -364,8 +364,8 @@ TEST(MisleadingCases, SaysWhatIsFreeToTurn) {
     "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [0, 0, 2]] }, "section": { "radius": 0.01 },
                 "material": { "density": 7800, "youngs_modulus": 2.1e11 } }],
     "supports": [{ "beam": "bar", "at": "start", "type": "pinned" }],
-    "loads": [{ "beam": "bar", "at": "end", "force": [1, 0, 0] }],
-    "analysis": { "type": "static" }, "output": { "report": false } })");
+    "loads": [{ "beam": "bar", "at": "end", "force": [0, 0, -1] }],
+    "analysis": { "type": "buckling" }, "output": { "report": false } })");
   EXPECT_EQ(run.code, 3);
   EXPECT_TRUE(
       run.says("nothing holds beam \"bar\": in the motion that is free its place at s = 2 m moves furthest "

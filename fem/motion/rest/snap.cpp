@@ -16,7 +16,8 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double resolution = 1e-3;  // part of the way
+// Parts of the way: of the answer, and of one where the equilibria near a branch's end are not found.
+constexpr double resolution = 1e-3, coarse_resolution = 1e-2;
 constexpr double near_no_load = 0.02;
 constexpr int few_load_steps = 12, most_load_steps = 400;  // of one equilibrium, and of all in between
 
@@ -68,15 +69,19 @@ class SnapSearch {
 
   std::optional<double> between(const Point& a, const Point& b) {
     if (b.part <= first_ || joined(a, b)) return {};
-    if (b.part - a.part <= resolution) {
-      constexpr double jump = 0.02;  // part of the whole way: twenty times an even share
-      if (distance(a.state, b.state) > jump * whole_) return b.part;
-      return {};
-    }
+    const double part = b.part - a.part;
+    if (part <= resolution) return end_of_branch(a, b);
     const std::optional<Point> middle = between_equilibria(a, b);
-    if (!middle) return {};
+    if (!middle) return part <= coarse_resolution ? end_of_branch(a, b) : std::nullopt;
     if (const auto found = between(a, *middle)) return found;
     return between(*middle, b);
+  }
+
+  // The later part, where the model moves by twenty times an even share between the two.
+  std::optional<double> end_of_branch(const Point& a, const Point& b) const {
+    constexpr double jump = 20;
+    if (distance(a.state, b.state) > jump * (b.part - a.part) * whole_) return b.part;
+    return {};
   }
 
   // The equilibrium half way between two, started from the earlier one if that is not far, else from the

@@ -562,7 +562,7 @@ TEST_F(CaseFileTest, NestingIsLimited) {
 TEST_F(CaseFileTest, AnAxisFileThatIsNoFileSaysWhatItIs) {
   const auto axis = [](const std::string& file) { return "beams[0].axis={\"file\": \"" + file + "\"}"; };
   expect_error({axis(".")}, "beams[0].axis.file",
-               {"is a directory", "expected a STEP, IGES, DXF, BREP or JSON file", "\"zipline.step\""});
+               {"is a directory", "expected a STEP, IGES, DXF, IFC, BREP or JSON file", "\"zipline.step\""});
   expect_error({axis("/dev/zero")}, "beams[0].axis.file", {"\"/dev/zero\" is a device"});
   const CaseFileReport device = read_case_file("/dev/zero");
   EXPECT_FALSE(device.value);
@@ -715,6 +715,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "viscous",
                                                "stick_stiffness",
                                                "stops",
+                                               "eyelets",
                                                "side",
                                                "gap",
                                                "restitution",
