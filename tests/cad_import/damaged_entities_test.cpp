@@ -49,6 +49,13 @@ TEST(DamagedEntity, LostValuesOfIgesAreNoZeros) {
   expect_named({.type = 126, .parameters = "126,5,3,0,0,1,0,0.,0.;"}, "BSplineCurve", "8 of the 40");
 }
 
+// 0, 0, 1, 1 without the second: all behind it is moved by one.
+TEST(DamagedEntity, AValueThatIsLostInsideASplineIsNoticed) {
+  expect_named(
+      {.type = 126, .parameters = "126,1,1,0,0,1,0,0.,1.,1.,1.,1.,0.,0.,0.,7.,0.,0.,0.,1.,0.,0.,1.;"},
+      "BSplineCurve", "values before it are lost");
+}
+
 TEST(DamagedEntity, TextInThePlaceOfANumberIsNamed) {
   for (const std::string text : {"abc", "0x10", "1.5E", "nan", "1.5.5"})
     expect_named({.type = 110, .parameters = "110,1.,2.,3.,4.," + text + ",6.;"}, "Line", "is no number");
