@@ -73,6 +73,19 @@ std::size_t needed(const IgesRecord& record, const Values& values) {
   }
 }
 
+/// Values that are lost inside a B-spline move others to where its range V(0) to V(1) is told, of a file that
+/// has not all that may stand there.
+std::optional<std::string> lost_before_range(const IgesRecord& record, const Values& values,
+                                             std::size_t needed) {
+  constexpr std::size_t range = 2, normal = 3;
+  if (record.type != 126 || values.size() < needed + range || values.size() >= needed + range + normal)
+    return std::nullopt;
+  const std::optional<double> first = iges_number(values[needed]), last = iges_number(values[needed + 1]);
+  if (first && last && *first < *last) return std::nullopt;
+  return "where its range V(0) to V(1) must stand is '" + values[needed] + "' to '" + values[needed + 1] +
+         "': values before it are lost";
+}
+
 std::string quoted(const std::string& value) {
   constexpr std::size_t longest = 20;
   return "'" + (value.size() > longest ? value.substr(0, longest) + "..." : value) + "'";
@@ -131,6 +144,7 @@ std::optional<std::string> values_defect(const IgesRecord& record, const Values&
   for (std::size_t i = 0; i < std::min(count, values.size()); ++i)
     if (!iges_number(values[i]))
       return "value " + std::to_string(i + 1) + " is " + quoted(values[i]) + ", which is no number";
+  if (const auto lost = lost_before_range(record, values, count)) return lost;
   if (values.size() < count)
     return "it has " + std::to_string(values.size()) + " of the " + std::to_string(count) +
            " values that its kind needs";

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
 #include "tests/cad_import/curve_ends.h"
@@ -45,6 +47,13 @@ TEST(DamagedEntity, LostValuesOfIgesAreNoZeros) {
   expect_named({.type = 126, .parameters = "126,1,1,0,0,1,0,0.,0.,1.,1.,1.,1.,0.,0.;"}, "BSplineCurve",
                "14 of the 18");
   expect_named({.type = 126, .parameters = "126,5,3,0,0,1,0,0.,0.;"}, "BSplineCurve", "8 of the 40");
+}
+
+// 0, 0, 1, 1 without the second: all behind it is moved by one.
+TEST(DamagedEntity, AValueThatIsLostInsideASplineIsNoticed) {
+  expect_named(
+      {.type = 126, .parameters = "126,1,1,0,0,1,0,0.,1.,1.,1.,1.,0.,0.,0.,7.,0.,0.,0.,1.,0.,0.,1.;"},
+      "BSplineCurve", "values before it are lost");
 }
 
 TEST(DamagedEntity, TextInThePlaceOfANumberIsNamed) {
@@ -119,6 +128,25 @@ TEST(DamagedEntity, CirclesOfReferencesInIgesAreNamed) {
     EXPECT_NE(report.diagnostics[0].message.find("a circle of references"), std::string::npos)
         << report.diagnostics[0].message;
   }
+}
+
+// OpenCASCADE crashes on the entity that comes behind two damaged lines of the directory.
+TEST(DamagedEntity, ACrashOfTheReaderCostsTheEntityThatItCrashesOn) {
+  const std::string column = std::string(32, ' ');
+  const std::string form = "     110       2       2       1       ",
+                    line = "     408       2       2       1       0" + column;
+  std::string file = content_of(corpus_file("iges-124-transform.igs"));
+  file = with(file, form + "0" + column + "D     10", form + "4294967296" + column + "D     10");
+  file = with(file, line + "D     14", line + "D      7");
+  const ImportReport report = imported(file);
+  EXPECT_TRUE(report.ok());
+  EXPECT_GE(report.curves.size(), 3U);
+  EXPECT_EQ(std::count_if(report.diagnostics.begin(), report.diagnostics.end(),
+                          [](const Diagnostic& d) {
+                            return d.where.find("D11 SubfigureDef") != std::string::npos &&
+                                   d.message.find("OpenCASCADE crashes on it") != std::string::npos;
+                          }),
+            1);
 }
 
 /// What is read of a line #100 of 9 mm beside what else there is in the set.
