@@ -42,7 +42,7 @@ std::optional<std::string> unusable(const fs::path& file, std::size_t size_limit
 }
 
 ChildLimits limits_for(const fs::path& file, const ImportOptions& options) {
-  constexpr std::uintmax_t seconds = 2, bytes = 24;  // for each MiB, and for each byte, of the file
+  constexpr std::uintmax_t seconds = 5, bytes = 24;  // for each MiB, and for each byte, of the file
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   ChildLimits limits{options.time_limit, options.memory_limit_bytes, options.interrupted, options.watch};

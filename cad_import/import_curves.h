@@ -8,7 +8,7 @@
 
 namespace nurbeam {
 
-/// Limits on one file and on the child process that reads it. Each MiB of the file adds 2 s to the time and
+/// Limits on one file and on the child process that reads it. Each MiB of the file adds 5 s to the time and
 /// 24 MiB to the memory.
 struct ImportOptions {
   std::size_t size_limit_bytes = std::size_t{512} << 20;  ///< of the file; a larger one is not opened

@@ -1,6 +1,6 @@
 #include "cad_import/json/read_curves.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -101,7 +101,8 @@ void add_curve(const Json& curve, ImportReport& report) {
   Eigen::Matrix4Xd points = points_in(curve);
   points.topRows<3>() *= report.unit_in_metres;
   for (NurbsCurve& piece : split_at_full_knots(degree_in(curve), numbers_in(curve, "knots"), points)) {
-    if (!(length(piece) > 0)) fail("it has no length");
+    const Eigen::Matrix3Xd places = piece.control_points().colwise().hnormalized();
+    if (!((places.colwise() - places.col(0)).cwiseAbs().maxCoeff() > 0)) fail("it has no length");
     imported.curve = std::move(piece);
     report.curves.push_back(imported);
   }
