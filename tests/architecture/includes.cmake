@@ -17,7 +17,7 @@ set(pipelines_may_include pipelines cad_import fem nurbs solver)
 set(python_may_include python pipelines cad_import fem nurbs solver)
 
 set(nurbs_floors . smooth)
-set(cad_import_floors report files . occt iges step dxf program)
+set(cad_import_floors report files . occt iges step ifc dxf program)
 set(solver_floors algebra system steps rest tangents)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion sensitivity)
 set(fem_motion_floors record remesh events rest run)
