@@ -13,11 +13,11 @@ ImportReport import_json(const std::string& text) {
   return import_curves(scratch.file("curves.json", text));
 }
 
-const std::string line =
+const std::string line_file =
     R"({"name": "rope", "degree": 1, "knots": [0, 0, 1, 1], "control_points": [[0, 0], [3, 4]]})";
 
 ImportReport with_line(const std::string& other, const std::string& unit = R"("unit": "mm",)") {
-  return import_json("{" + unit + R"( "curves": [)" + line + (other.empty() ? "" : ", " + other) + "]}");
+  return import_json("{" + unit + R"( "curves": [)" + line_file + (other.empty() ? "" : ", " + other) + "]}");
 }
 
 TEST(JsonCurves, HaveTheUnitOfTheFile) {
