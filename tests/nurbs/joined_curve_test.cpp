@@ -81,7 +81,7 @@ TEST(JoinedCurve, AClosedChainEndsWhereItBegins) {
   chain.closed = true;
   const JoinedCurve joined = joined_curve(quarters, chain);
   EXPECT_NEAR(joined.gap, 1e-6, 1e-15);
-  EXPECT_TRUE(is_closed(joined.curve, 0));
+  EXPECT_TRUE(is_closed(joined.curve, 1e-15));
 }
 
 TEST(MovedCurve, IsTheImageOfEveryPoint) {
