@@ -113,7 +113,10 @@ void allow_distance(double distance, double size, const Vector2d& end, Search& f
   if (!found.leniency.repairs(distance, size))
     throw std::runtime_error("its end " + point_text(end) + " is " + text_of(distance) +
                              " off the curve of its equation; correct one of them");
-  if (Leniency::is_told(distance, size)) found.repair = std::max(found.repair, distance);
+  // An equation of few digits is as near as points of the file are.
+  constexpr double few_digits = 1e-4;
+  if (distance > found.leniency.resolution ? Leniency::is_told(distance, size) : distance > few_digits * size)
+    found.repair = std::max(found.repair, distance);
 }
 
 /// Moves the curve, of the points where `value` is zero, by the least that has its ends on it, where that is

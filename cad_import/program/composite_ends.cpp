@@ -107,10 +107,18 @@ void join_composites(const XSControl_Reader& reader, const CurvesOfEdges& curves
 }
 
 bool is_same_but_for_ends(const NurbsCurve& a, const NurbsCurve& b) {
+  constexpr double round_off = 1e-9;  // of the length
   if (a.knots() != b.knots() || a.control_points().row(3) != b.control_points().row(3)) return false;
+  const double size = length(a);
+  NurbsCurve moved = a;
+  for (const bool last : {false, true}) {
+    const Eigen::Vector3d move = end_of_curve(b, last) - end_of_curve(a, last);
+    if (move.norm() > largest_move * size) return false;
+    moved = with_end_moved(moved, last, move);
+  }
   const Eigen::Matrix3Xd apart =
-      a.control_points().colwise().hnormalized() - b.control_points().colwise().hnormalized();
-  return apart.colwise().norm().maxCoeff() <= largest_move * length(a);
+      moved.control_points().colwise().hnormalized() - b.control_points().colwise().hnormalized();
+  return apart.colwise().norm().maxCoeff() <= round_off * size;
 }
 
 }  // namespace nurbeam

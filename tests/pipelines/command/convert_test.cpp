@@ -14,6 +14,7 @@
 #include "cad_import/export_curves.h"
 #include "cad_import/import_curves.h"
 #include "pipelines/command/command_line.h"
+#include "tests/pipelines/case_text.h"
 
 namespace nurbeam {
 namespace {
@@ -34,13 +35,9 @@ Answer answer_to(const std::vector<std::string>& arguments) {
 
 class Convert : public testing::Test {
  protected:
-  Convert() : path_(fs::path(testing::TempDir()) / "convert") { fs::create_directories(path_); }
-  ~Convert() override { fs::remove_all(path_); }
-
   std::string file(const std::string& name) const { return (path_ / name).string(); }
   std::string file(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name) << content;
-    return file(name);
+    return directory_.write(name, content).string();
   }
   static std::string content_of(const std::string& name) {
     std::ifstream in(name);
@@ -53,7 +50,8 @@ class Convert : public testing::Test {
   }
 
  private:
-  fs::path path_;
+  test::TemporaryDirectory directory_;
+  const fs::path path_ = directory_.path();
 };
 
 /// A rational quintic, a quarter of a circle, and the line that goes on from it; in inches.
