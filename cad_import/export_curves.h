@@ -16,10 +16,11 @@ CadFormat written_format(const std::filesystem::path& file);
 
 /// Writes the curves, one B-spline curve entity each, in the unit, at full precision (17 digits; 15 in BREP),
 /// in written_format(): under their names in STEP and IGES, on a layer of that name in DXF; BREP has none,
-/// and its unit is the millimetre; SVG holds curves of one plane, those with weights within 1e-6 of the size. Written to a temporary name and renamed; when it cannot be written it is
-/// as it was before, and a Diagnostic of severity error says why. Spaces stand for control characters of
-/// names. Throws std::invalid_argument for an unknown extension (naming the known ones), for another unit in
-/// BREP and for no curves.
+/// and its unit is the millimetre; SVG holds curves of one plane, those with weights within 1e-6 of the size.
+/// Written to a temporary name and renamed; when it cannot be written it is as it was before, and a
+/// Diagnostic of severity error says why. Spaces stand for control characters of names. Throws
+/// std::invalid_argument for an unknown extension (naming the known ones), for another unit in BREP and for
+/// no curves.
 [[nodiscard]] std::vector<Diagnostic> export_curves(const std::filesystem::path& file,
                                                     const std::vector<NamedCurve>& curves, LengthUnit unit,
                                                     StepSchema schema = StepSchema::ap214);

@@ -24,9 +24,10 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
     findings.add(Severity::warning, "analysis.integrator.rho_infinity",
                  "has an effect with \"generalized-alpha\" only");
   if (method == Method::ida)
-    findings.add(Severity::warning, "analysis.integrator.type",
-                 "is \"ida\", which the next version no longer has; use \"radau\": of error control too, and for "
-                 "friction, stops and stiff beams");
+    findings.add(
+        Severity::warning, "analysis.integrator.type",
+        "is \"ida\", which the next version no longer has; use \"radau\": of error control too, and for "
+        "friction, stops and stiff beams");
   const double of_steps = fixed_steps ? 0 : tolerance.value_or(1e-4);
   switch (method) {
     case Method::radau:

@@ -2,7 +2,8 @@
 // OpenCASCADE warm, and checks that every one of them ends in curves or in a diagnostic that names the file.
 // Now and then a good file is read by import_curves().
 //
-//   fuzz_reader step|iges|dxf|binary|ifc|brep|json|packed [--seconds N] [--cases N] [--seed N] [--from DIRECTORY]
+//   fuzz_reader step|iges|dxf|binary|ifc|brep|json|packed [--seconds N] [--cases N] [--seed N] [--from
+//   DIRECTORY]
 //               [--counts FILE] [--keep DIRECTORY]
 //
 // Without --seed it is the date, 20240521. --from names drawings to mutate besides; --counts adds up the

@@ -21,8 +21,8 @@ struct CaseBeam {
   CaseAxis axis;
   /// For axes of degree above 3 [m]; else approximation_tolerance() of beam_axis.h.
   std::optional<double> approximation_tolerance = {};
-  bool rigid = false;                     ///< a guide: no section, material or elements
-  bool ring = false;                      ///< the axis is closed, and so is the beam
+  bool rigid = false;  ///< a guide: no section, material or elements
+  bool ring = false;   ///< the axis is closed, and so is the beam
   Corners corners = Corners::error;
   double smooth_angle = 0;  ///< greatest corner that is smoothed [rad]; 0: none
   CaseSection section;
@@ -59,9 +59,7 @@ inline Fields<Orientation> orientation_fields() {
               "start", vector(Dimension::number),
               "it does at the start, and from there sections do not twist; z, or x where the beam starts "
               "along z, when nothing is said",
-              [](const Json& json, const std::string&, O& to, Findings&) {
-                take(json, to.direction);
-              }),
+              [](const Json& json, const std::string&, O& to, Findings&) { take(json, to.direction); }),
           field_by<O>("frenet", boolean(), "it points to the centre of curvature everywhere",
                       [](const Json& json, const std::string&, O& to, Findings&) {
                         bool frenet = false;
