@@ -164,7 +164,8 @@ Loads external_forces(const BeamSystem& system, const State& state) {
   for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i) {
     const auto [force, couple] = reaction(system, state, state.lambda, i);
     loads.largest = std::max(loads.largest, couple.norm() / length);  // as a pair of forces
-    if (std::holds_alternative<Support>(model.constraints[i]))
+    if (std::holds_alternative<Support>(model.constraints[i]) ||
+        std::holds_alternative<HeldBody>(model.constraints[i]))
       loads.add(force);
     else
       loads.largest = std::max(loads.largest, force.norm());  // between beams
