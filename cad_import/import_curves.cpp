@@ -1,8 +1,12 @@
 #include "cad_import/import_curves.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "cad_import/files/ask_program.h"
@@ -41,12 +45,22 @@ std::optional<std::string> unusable(const fs::path& file, std::size_t size_limit
   return std::nullopt;
 }
 
-ChildLimits limits_for(const fs::path& file, const ImportOptions& options) {
-  constexpr std::uintmax_t seconds = 5, bytes = 24;  // for each MiB, and for each byte, of the file
+/// How much text a file may hold: a packed one several times its size, which is told inside.
+std::uintmax_t size_of_text(const fs::path& file, std::size_t size_limit) {
+  constexpr std::uintmax_t packed = 10;
+  std::array<char, 2> begin{};
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  const std::string_view mark(begin.data(), begin.size());
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
+  if (error) return 0;
+  return mark == "PK" || mark == "\x1F\x8B" ? std::min<std::uintmax_t>(packed * size, size_limit) : size;
+}
+
+ChildLimits limits_for(const fs::path& file, const ImportOptions& options) {
+  constexpr std::uintmax_t seconds = 5, bytes = 24;  // for each MiB, and for each byte, of the text
+  const std::uintmax_t size = size_of_text(file, options.size_limit_bytes);
   ChildLimits limits{options.time_limit, options.memory_limit_bytes, options.interrupted, options.watch};
-  if (error) return limits;
   limits.time += std::chrono::seconds(seconds * (size >> 20));
   if (limits.memory_bytes > 0) limits.memory_bytes += bytes * size;
   return limits;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "cad_import/files/child_process.h"
 #include "cad_import/report/import_report.h"
 
 namespace nurbeam {
@@ -16,8 +17,7 @@ struct ImportOptions {
   std::size_t memory_limit_bytes = std::size_t{2} << 30;  ///< address space; 0: no limit (sanitizer builds)
   double tolerance = 1e-7;                                ///< for entities that have no exact NURBS form [m]
   std::function<bool()> interrupted = {};  ///< asked ten times a second; reading then ends with an error
-  /// Told ten times a second how long the reader has worked [s] and how much memory it holds [bytes].
-  std::function<void(double, std::size_t)> watch = {};
+  std::function<void(const ChildState&)> watch = {};  ///< told ten times a second how far the reader is
 };
 
 /// All curves of a STEP, IGES, DXF, BREP or JSON file (by its content, not its name): edges of shapes and

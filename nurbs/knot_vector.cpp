@@ -27,6 +27,14 @@ void require_finite_and_sorted(const std::vector<double>& knots) {
   }
 }
 
+// So that derivatives by the parameter are numbers.
+void require_apart(const std::vector<double>& breaks) {
+  constexpr double least = 1e-60;
+  for (std::size_t i = 1; i < breaks.size(); ++i)
+    require(breaks[i] - breaks[i - 1] >= least, "knots ", breaks[i - 1], " and ", breaks[i], " are ",
+            breaks[i] - breaks[i - 1], " apart; knots must be equal, or at least 1e-60 apart");
+}
+
 }  // namespace
 
 KnotVector::KnotVector(int degree, std::vector<double> knots) : degree_(degree), knots_(std::move(knots)) {
@@ -36,6 +44,7 @@ KnotVector::KnotVector(int degree, std::vector<double> knots) : degree_(degree),
   require_finite_and_sorted(knots_);
   require(start() < end(), "the curve would live on [", start(), ", ", end(),
           "]; its start must lie before its end");
+  require_apart(breaks());
   for (const double u : breaks()) {
     const int most = u == start() || u == end() ? degree + 1 : degree;
     require(multiplicity(u) <= most, "knot ", u, " stands ", multiplicity(u), " times; at most ", most,

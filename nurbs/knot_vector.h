@@ -12,7 +12,8 @@ class KnotVector {
  public:
   /// Throws std::invalid_argument (message: value and rule) unless degree >= 1, all knots are finite and
   /// non-decreasing, there are at least 2 (degree + 1) of them, no interior knot has a multiplicity above the
-  /// degree, no end knot one above degree + 1, and start() < end().
+  /// degree, no end knot one above degree + 1, start() < end(), and knots that differ are 1e-60 apart or
+  /// more.
   KnotVector(int degree, std::vector<double> knots);
 
   int degree() const { return degree_; }

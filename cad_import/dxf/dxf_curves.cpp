@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "cad_import/dxf/drawn_arcs.h"
+#include "cad_import/dxf/dxf_helix.h"
 #include "cad_import/dxf/dxf_polyline.h"
 #include "cad_import/dxf/dxf_spline.h"
 #include "cad_import/dxf/own_axes.h"
@@ -61,6 +62,7 @@ std::vector<DrawnCurve> curves_of(const DxfEntity& entity, const std::vector<Dxf
   if (entity.type == "ARC") return {circle(entity, false)};
   if (entity.type == "CIRCLE") return {circle(entity, true)};
   if (entity.type == "ELLIPSE") return {ellipse(entity)};
+  if (entity.type == "HELIX" && !has_spline(entity)) return {helix_curve(entity)};
   if (entity.type == "SPLINE" || entity.type == "HELIX") return spline_curves(entity);
   if (entity.type == "LWPOLYLINE") return light_polyline(entity);
   if (entity.type == "POLYLINE") return heavy_polyline(entity, all);

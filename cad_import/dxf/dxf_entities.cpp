@@ -1,6 +1,7 @@
 #include "cad_import/dxf/dxf_entities.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
 /// The whole of the text as a number.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
@@ -95,6 +96,26 @@ const DxfPair* first_of(std::span<const DxfPair> pairs, int code) {
   return at == pairs.end() ? nullptr : &*at;
 }
 
+bool is_known_section(std::string_view name) {
+  constexpr std::array<std::string_view, 8> known{"HEADER",   "CLASSES",        "TABLES",  "BLOCKS",
+                                                  "ENTITIES", "THUMBNAILIMAGE", "OBJECTS", "ACDSDATA"};
+  return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+/// Its name. A section in another one, and values before the first entity, are strays.
+std::string_view begun_section(const DxfEntity& entity, std::string_view open,
+                               std::vector<std::string>& strays) {
+  const DxfPair* const found = first_of(entity.pairs, 2);
+  const std::string_view name = found ? found->value : std::string_view();
+  constexpr int comment = 999;
+  const auto values = std::count_if(entity.pairs.begin(), entity.pairs.end(),
+                                    [](const DxfPair& pair) { return pair.code != comment; });
+  if (!open.empty()) strays.push_back("SECTION in section " + std::string(open));
+  if (values > 1 && (name == "ENTITIES" || name == "BLOCKS"))
+    strays.push_back("values before the first entity of section " + std::string(name));
+  return name;
+}
+
 void append(DxfEntity entity, std::vector<DxfEntity>& list) {
   entity.number = static_cast<int>(list.size()) + 1;
   list.push_back(entity);
@@ -162,20 +183,27 @@ DxfDrawing dxf_drawing(std::string_view content) {
   bool in_block = false;
   const auto add_to_blocks = [&](const DxfEntity& entity) {
     if (entity.type == "BLOCK") drawing.blocks.push_back({entity, {}});
+    if (!in_block && entity.type != "BLOCK")
+      drawing.strays.push_back(std::string(entity.type) + " outside of blocks");
     in_block = entity.type == "BLOCK" || (in_block && entity.type != "ENDBLK");
     if (in_block && entity.type != "BLOCK") append(entity, drawing.blocks.back().entities);
   };
   for_each_entity(drawing.pairs, [&](const DxfEntity& entity) {
-    if (entity.type == "SECTION" || entity.type == "ENDSEC") {
-      const DxfPair* const name = first_of(entity.pairs, 2);
-      section = entity.type == "SECTION" && name ? name->value : std::string_view();
+    if (entity.type == "SECTION") {
+      section = begun_section(entity, section, drawing.strays);
       if (section == "HEADER") read_header(entity.pairs, drawing);
+    } else if (entity.type == "ENDSEC") {
+      section = {};
     } else if (section == "TABLES" && entity.type == "LAYER") {
       append(entity, drawing.layers);
     } else if (section == "BLOCKS") {
       add_to_blocks(entity);
     } else if (section == "ENTITIES" && entity.type != "EOF") {
       append(entity, drawing.entities);
+    } else if (!is_known_section(section) && entity.type != "EOF") {
+      drawing.strays.push_back(std::string(entity.type) + (section.empty()
+                                                               ? " outside of sections"
+                                                               : " in section " + std::string(section)));
     }
   });
   return drawing;

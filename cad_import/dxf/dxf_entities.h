@@ -49,6 +49,7 @@ struct DxfDrawing {
   std::optional<int> unit, measurement;  // $INSUNITS, $MEASUREMENT
   std::string code_page;                 // $DWGCODEPAGE
   std::size_t bytes_behind = 0;          // text behind EOF
+  std::vector<std::string> strays;       // what stands where nothing reads it, as "LINE behind ENDSEC"
   std::vector<DxfEntity> layers, entities;
   std::vector<DxfBlock> blocks;
 

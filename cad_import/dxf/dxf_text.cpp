@@ -1,6 +1,7 @@
 #include "cad_import/dxf/dxf_text.h"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdio>
 #include <initializer_list>
 #include <stdexcept>
@@ -182,14 +183,25 @@ void add_line(DxfText& out, const Eigen::Matrix3Xd& points) {
   out.add(11, Eigen::Vector3d(points.col(1)));
 }
 
-void add_entity(DxfText& out, const NurbsCurve& curve, const std::string& layer, double per_metre,
+/// A true colour, and the nearest of the first seven for programs that know only these.
+void add_colour(DxfText& out, const std::string& colour) {
+  constexpr std::array<int, 8> numbers{7, 1, 3, 2, 5, 6, 4, 7};  // by which of red, green and blue are bright
+  const auto [red, green, blue] = parts_of_colour(colour);
+  const int bright = red / 128 + 2 * (green / 128) + 4 * (blue / 128);
+  out.add(62, numbers[static_cast<std::size_t>(bright)]);
+  out.add(420, (red << 16) + (green << 8) + blue);
+}
+
+void add_entity(DxfText& out, const NamedCurve& named, const std::string& layer, double per_metre,
                 std::string_view model_space) {
+  const NurbsCurve& curve = named.curve;
   const Eigen::Matrix3Xd points = per_metre * curve.control_points().colwise().hnormalized();
   const bool is_line = curve.degree() == 1 && points.cols() == 2;
   out.add(0, is_line ? "LINE" : "SPLINE");
   out.identify(model_space);
   out.add(100, "AcDbEntity");
   out.add(8, layer);
+  if (is_colour(named.colour)) add_colour(out, named.colour);
   if (is_line)
     add_line(out, points);
   else
@@ -238,7 +250,7 @@ std::string dxf_text(const std::vector<NamedCurve>& curves, LengthUnit unit) {
   const std::string model_space = add_tables(out, layers);
   begin_section(out, "ENTITIES");
   for (std::size_t i = 0; i < curves.size(); ++i)
-    add_entity(out, curves[i].curve, layer_of[i], in_file.per_metre, model_space);
+    add_entity(out, curves[i], layer_of[i], in_file.per_metre, model_space);
   out.add(0, "ENDSEC");
   add_objects(out);
   out.add(0, "EOF");

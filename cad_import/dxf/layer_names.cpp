@@ -47,8 +47,9 @@ std::vector<std::string> layer_names(const std::vector<NamedCurve>& curves) {
   std::set<std::wstring> taken{L"0"};
   std::vector<std::string> layer_of;
   for (const NamedCurve& curve : curves) {
-    const auto [layer, is_new] = layers.try_emplace(curve.name);
-    const std::string wanted = without_forbidden_letters(curve.name);
+    const std::string& given = curve.layer.empty() ? curve.name : curve.layer;
+    const auto [layer, is_new] = layers.try_emplace(given);
+    const std::string wanted = without_forbidden_letters(given);
     std::string suffix;
     for (int number = 2; is_new; ++number) {
       layer->second = first_letters(wanted, most_letters - suffix.size()) + suffix;

@@ -14,6 +14,7 @@
 #include "cad_import/dxf/dxf_curves.h"
 #include "cad_import/dxf/dxf_polyline.h"
 #include "cad_import/dxf/entity_look.h"
+#include "cad_import/files/told_share.h"
 
 namespace nurbeam {
 namespace {
@@ -40,6 +41,8 @@ NurbsCurve moved(const NurbsCurve& curve, const Eigen::Affine3d& place, double u
   return {curve.knots(), std::move(points)};
 }
 
+double largest_scale(const Eigen::Affine3d& place) { return place.linear().colwise().norm().maxCoeff(); }
+
 bool has_length(const NurbsCurve& curve) {
   const Eigen::Matrix3Xd places = curve.control_points().colwise().hnormalized();
   return (places.colwise() - places.col(0)).cwiseAbs().maxCoeff() > 0;
@@ -60,7 +63,10 @@ class PlacedEntities {
   }
 
   void add(const std::vector<DxfEntity>& entities, const Placement& in) {
+    constexpr PartOfWork after_text{0.2, 1};
     for (const DxfEntity& entity : entities) {
+      if (in.blocks.empty())
+        tell_share_of(after_text, static_cast<std::size_t>(&entity - entities.data()), entities.size());
       try {
         add(entity, entities, in);
       } catch (const std::bad_alloc&) {
@@ -87,6 +93,8 @@ class PlacedEntities {
  private:
   void add(const DxfEntity& entity, const std::vector<DxfEntity>& all, const Placement& in) {
     const bool mesh = is_mesh(entity);
+    if (entity.type == "VERTEX" && !has_polyline(entity, all))
+      throw std::runtime_error("no POLYLINE stands before it");
     if (draws_no_curves(entity.type)) return;
     if (is_in_paper_space(entity)) {
       if (is_curve_kind(entity.type)) on_paper_.push_back(&entity);
@@ -99,16 +107,26 @@ class PlacedEntities {
     }
   }
 
+  /// Of the first of several vertices, whether the entity before it is theirs.
+  static bool has_polyline(const DxfEntity& vertex, const std::vector<DxfEntity>& all) {
+    if (vertex.number < 2) return false;
+    const std::string_view before = all[static_cast<std::size_t>(vertex.number) - 2].type;
+    return before == "POLYLINE" || before == "VERTEX";
+  }
+
   void add(const DrawnCurve& drawn, const DxfEntity& entity, const Placement& in) {
     NurbsCurve curve = moved(drawn.curve, in.to_drawing, report_.unit_in_metres);
     if (!has_length(curve)) throw std::runtime_error("it has no length");
-    report_.curves.push_back({.name = in.blocks.empty() ? "" : name_of(*in.blocks.back()),
-                              .entity = drawn.entity,
-                              .layer = layer_of(entity, in),
-                              .colour = colour_of(entity, in.colour),
-                              .part = in.path,
-                              .hidden = is_hidden(entity, in),
-                              .curve = std::move(curve)});
+    report_.curves.push_back(
+        {.name = in.blocks.empty() ? "" : name_of(*in.blocks.back()),
+         .entity = drawn.entity,
+         .layer = layer_of(entity, in),
+         .colour = colour_of(entity, in.colour),
+         .part = in.path,
+         .hidden = is_hidden(entity, in),
+         .exact = drawn.deviation == 0,
+         .deviation = drawn.deviation * largest_scale(in.to_drawing) * report_.unit_in_metres,
+         .curve = std::move(curve)});
     if (!drawn.note.empty() && is_first_look_at(entity))
       notes_.add(Severity::note, label_of(entity, in), drawn.note);
   }

@@ -39,6 +39,12 @@ void add_remarks(const DxfDrawing& drawing, bool is_ascii, ImportReport& report)
     report.diagnostics.push_back(
         {Severity::note, "",
          "what stands behind EOF is not read: " + std::to_string(drawing.bytes_behind) + " bytes"});
+  if (!drawing.strays.empty())
+    report.diagnostics.push_back(
+        {Severity::warning, "",
+         "entities or values stand where none are read: " + drawing.strays.front() + " and " +
+             std::to_string(drawing.strays.size() - 1) +
+             " more; the drawing is damaged, and curves may be missing: export or copy it again"});
   if (!is_ascii && !drawing.code_page.empty() && !is_known_code_page(drawing.code_page))
     report.diagnostics.push_back({Severity::warning, "",
                                   "the code page '" + drawing.code_page +

@@ -36,11 +36,16 @@ bool reaches_the_disk(const fs::path& path) {
 }
 
 // Why the temporary file cannot be given its name, which it has afterwards if there is no reason.
-std::optional<std::string> obstacle_to_renaming(const fs::path& file) {
+std::optional<std::string> obstacle_to_publishing(const fs::path& file) {
+  if (!reaches_the_disk(temporary_name(file)))
+    return std::string("cannot be written: ") + std::strerror(errno);
   std::error_code error;
   fs::rename(temporary_name(file), file, error);
-  if (!error) return std::nullopt;
-  return "cannot be renamed from its temporary name: " + error.message();
+  if (error) return "cannot be renamed from its temporary name: " + error.message();
+  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!reaches_the_disk(directory))
+    return std::string("its directory cannot be written: ") + std::strerror(errno);
+  return std::nullopt;
 }
 
 std::optional<std::string> obstacle_to_writing(const fs::path& file, const std::string& text) {
@@ -49,7 +54,7 @@ std::optional<std::string> obstacle_to_writing(const fs::path& file, const std::
   out << text;
   out.close();
   if (!out) return "cannot be written: " + std::generic_category().message(errno);
-  return obstacle_to_renaming(file);
+  return obstacle_to_publishing(file);
 }
 
 }  // namespace
@@ -57,16 +62,7 @@ std::optional<std::string> obstacle_to_writing(const fs::path& file, const std::
 fs::path temporary_name(const fs::path& file) { return file.string() + ".part"; }
 
 void publish(const fs::path& file) {
-  if (const auto obstacle = obstacle_to_renaming(file)) fail(file, *obstacle);
-}
-
-void publish_durably(const fs::path& file) {
-  if (!reaches_the_disk(temporary_name(file)))
-    fail(file, std::string("cannot be written: ") + std::strerror(errno));
-  publish(file);
-  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!reaches_the_disk(directory))
-    fail(file, std::string("its directory cannot be written: ") + std::strerror(errno));
+  if (const auto obstacle = obstacle_to_publishing(file)) fail(file, *obstacle);
 }
 
 std::vector<Diagnostic> write_at_once(const fs::path& file, const std::string& text) {

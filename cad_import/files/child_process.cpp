@@ -15,6 +15,7 @@
 #include <fstream>
 
 #include "cad_import/files/child_message.h"
+#include "cad_import/files/told_share.h"
 
 namespace nurbeam {
 namespace {
@@ -44,16 +45,26 @@ int milliseconds_until(Clock::time_point deadline) {
   return static_cast<int>(std::clamp<std::chrono::milliseconds::rep>(left, 0, 1'000'000));
 }
 
-// What a process holds at this moment [bytes]; 0 where that is not known.
+// What a process and those that it has started hold at this moment [bytes]; 0 where that is not known.
 std::size_t resident_memory(pid_t process) {
-  std::ifstream statm("/proc/" + std::to_string(process) + "/statm");
+  const std::string place = "/proc/" + std::to_string(process);
+  std::ifstream statm(place + "/statm"), children(place + "/task/" + std::to_string(process) + "/children");
   std::size_t size = 0, resident = 0;
   statm >> size >> resident;
-  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  std::size_t all = resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  for (pid_t child = 0; children >> child;) all += resident_memory(child);
+  return all;
 }
 
+/// A child process at work: where its answer comes from, and where its request stands.
+struct Working {
+  pid_t child;
+  int answer, request;
+  std::size_t request_size;
+};
+
 // Everything up to the end of the stream; false when the deadline passes first or an interruption comes.
-bool receive_until(Clock::time_point deadline, const ChildLimits& limits, pid_t child, int descriptor,
+bool receive_until(Clock::time_point deadline, const ChildLimits& limits, const Working& working,
                    std::string& bytes) {
   constexpr int asked_every = 100;  // [ms]
   const Clock::time_point start = Clock::now();
@@ -61,15 +72,16 @@ bool receive_until(Clock::time_point deadline, const ChildLimits& limits, pid_t 
   const auto tell = [&] {
     if (!limits.watch || Clock::now() < told + std::chrono::milliseconds(asked_every)) return;
     told = Clock::now();
-    limits.watch(std::chrono::duration<double>(told - start).count(), resident_memory(child));
+    limits.watch({std::chrono::duration<double>(told - start).count(), resident_memory(working.child),
+                  told_share(working.request, working.request_size)});
   };
   char buffer[1 << 16];
   while (Clock::now() < deadline && !(limits.interrupted && limits.interrupted())) {
     tell();
-    pollfd ready{descriptor, POLLIN, 0};
+    pollfd ready{working.answer, POLLIN, 0};
     const int longest = limits.interrupted || limits.watch ? asked_every : milliseconds_until(deadline);
     if (poll(&ready, 1, std::min(longest, milliseconds_until(deadline))) <= 0) continue;
-    const ssize_t count = read(descriptor, buffer, sizeof buffer);
+    const ssize_t count = read(working.answer, buffer, sizeof buffer);
     if (count == 0) return true;
     if (count < 0 && errno != EINTR) return true;
     if (count > 0) bytes.append(buffer, static_cast<std::size_t>(count));
@@ -228,7 +240,8 @@ ChildResult run_program(const std::filesystem::path& program, const std::string&
   childs_end.reset();
   if (error != 0) return {Status::not_started, "", program.string() + ": " + std::strerror(error)};
   std::string bytes;
-  const bool in_time = receive_until(deadline, limits, child, answer.get(), bytes);
+  const bool in_time =
+      receive_until(deadline, limits, {child, answer.get(), asked.get(), request.size()}, bytes);
   answer.reset();
   const ChildEnd end = in_time ? wait_for_end(child, deadline) : reap(child);
   ChildResult result{Clock::now() < deadline ? Status::interrupted : Status::timed_out, "", ""};

@@ -7,14 +7,20 @@
 
 namespace nurbeam {
 
+/// How far a child process is.
+struct ChildState {
+  double seconds;      ///< that it has worked
+  std::size_t memory;  ///< that it holds [bytes]
+  double share = 0;    ///< of its work that is done, as it tells; 0: it has told none yet
+};
+
 /// What a child process may use.
 struct ChildLimits {
   std::chrono::seconds time{30};  ///< wall and CPU time
   std::size_t memory_bytes = 0;   ///< address space; 0: no limit
   /// Asked ten times a second whether nobody waits for the answer any more.
   std::function<bool()> interrupted = {};
-  /// Told ten times a second how long it has worked [s] and how much memory it holds [bytes].
-  std::function<void(double, std::size_t)> watch = {};
+  std::function<void(const ChildState&)> watch = {};  ///< told ten times a second
 };
 
 /// How a child process ended, and what it sent.

@@ -14,6 +14,7 @@
 
 #include "cad_import/files/child_message.h"
 #include "cad_import/files/child_process.h"
+#include "cad_import/files/told_share.h"
 
 namespace nurbeam {
 namespace {
@@ -67,7 +68,9 @@ int serve_one_request(int argc, char** argv, const std::function<std::string(con
   if (getppid() != std::atoi(argv[1])) return 2;  // it has died already
   apply({std::chrono::seconds(std::atoll(argv[2])), static_cast<std::size_t>(std::atoll(argv[3]))});
   try {
-    const std::string output = work(all_of(STDIN_FILENO));
+    const std::string request = all_of(STDIN_FILENO);
+    begin_to_tell_share(request.size());
+    const std::string output = work(request);
     send_message(child_message::descriptor, child_message::done, output.data(), output.size());
   } catch (const std::bad_alloc&) {
     send_message(child_message::descriptor, child_message::out_of_memory, "", 0);

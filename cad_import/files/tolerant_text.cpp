@@ -1,5 +1,6 @@
 #include "cad_import/files/tolerant_text.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -173,6 +174,7 @@ std::string tolerant_text(std::string content) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   content = without_utf16(std::move(content));
   if (content.starts_with(byte_order_mark)) content.erase(0, byte_order_mark.size());
+  if (content.find('\n') == std::string::npos) std::replace(content.begin(), content.end(), '\r', '\n');
   if (has_no_line_ends(content)) return in_lines(content);
   const std::optional<CadFormat> format = format_of(content);
   if (format == CadFormat::step || format == CadFormat::ifc)

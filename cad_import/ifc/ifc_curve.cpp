@@ -55,6 +55,14 @@ NurbsCurve arc_through(const std::array<Eigen::Vector3d, 3>& p) {
   return conic_curve(Eigen::Vector2d::Constant(to_centre.norm()), 0, angle, place);
 }
 
+/// The same curve, its parameters from 0 to `span`.
+NurbsCurve with_span(const NurbsCurve& curve, double span) {
+  const double first = curve.knots().start(), last = curve.knots().end();
+  std::vector<double> knots = curve.knots().knots();
+  for (double& knot : knots) knot = knot == last ? span : (knot - first) / (last - first) * span;
+  return {KnotVector(curve.degree(), std::move(knots)), curve.control_points()};
+}
+
 /// One of the two ends of a trimmed curve.
 struct Trim {
   std::optional<double> parameter;
@@ -122,7 +130,7 @@ class Reader {
         chosen.push_back(points[static_cast<std::size_t>(number) - 1]);
       }
       if (segment.text == "IFCARCINDEX" && chosen.size() == 3)
-        curves.push_back(named("circle", arc_through({chosen[0], chosen[1], chosen[2]})));
+        curves.push_back(named("circle", with_span(arc_through({chosen[0], chosen[1], chosen[2]}), 1)));
       else
         curves.push_back(named(chosen.size() == 2 ? "line" : "bspline", polyline(chosen)));
     }
@@ -137,7 +145,8 @@ class Reader {
 
   ImportedCurve conic(const IfcValue& given, double first, double last) const {
     return named(given.text == "IFCELLIPSE" ? "ellipse" : "circle",
-                 conic_curve(radii_of(given), first, last, ifc_placement(model_, given.at(0))));
+                 with_span(conic_curve(radii_of(given), first, last, ifc_placement(model_, given.at(0))),
+                           (last - first) / model_.angle_unit()));
   }
 
   Trim trim_of(const IfcValue& selection) const {
@@ -168,7 +177,9 @@ class Reader {
       if (!trim.parameter) throw std::runtime_error("it is trimmed by nothing");
       return ifc_point(model_, line.at(0)) + *trim.parameter * along;
     };
-    return polyline({place(first), place(last)});
+    const Eigen::Vector3d begin = place(first), end = place(last);
+    const double span = (end - begin).norm() / along.norm();
+    return span > 0 ? with_span(polyline({begin, end}), span) : polyline({begin, end});
   }
 
   /// Against the sense of the conic it runs from the first to the last clockwise.

@@ -98,9 +98,11 @@ IfcModel::IfcModel(std::string_view text) {
     int number = 0;
     const auto [behind, error] = std::from_chars(text.data() + begin + 1, text.data() + end, number);
     const std::size_t equals = skip_space(text, static_cast<std::size_t>(behind - text.data()));
-    if (error != std::errc() || equals >= end || text[equals] != '=') continue;
+    const bool is_one = error == std::errc() && equals < end && text[equals] == '=';
     const std::size_t value = skip_space(text, equals + 1);
-    instances_.emplace(number, text.substr(value, end - value));
+    constexpr std::size_t shown = 30;
+    if (!is_one || !instances_.emplace(number, text.substr(value, end - value)).second)
+      damaged_.emplace_back(text.substr(begin, std::min(end - begin, shown)));
   }
   read_units();
 }

@@ -28,6 +28,9 @@ class IfcModel {
   /// All numbers.
   std::vector<int> numbers() const;
 
+  /// How statements begin that are no instances, though they begin as one, or have the number of another.
+  const std::vector<std::string>& damaged() const { return damaged_; }
+
   double length_unit() const { return length_unit_; }  ///< [m]; 0: undeclared
   double angle_unit() const { return angle_unit_; }    ///< [rad]
 
@@ -36,6 +39,7 @@ class IfcModel {
   double unit_of(const IfcValue& unit, int depth = 0) const;
 
   std::map<int, std::string_view> instances_;
+  std::vector<std::string> damaged_;
   double length_unit_ = 0, angle_unit_ = 1;
 };
 

@@ -1,5 +1,6 @@
 #include "cad_import/ifc/ifc_value.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstdint>
@@ -36,6 +37,12 @@ class Parser {
 
  private:
   [[noreturn]] static void fail(const std::string& what) { throw std::runtime_error("its text " + what); }
+  [[noreturn]] void fail_at_value() const {
+    const std::size_t end = text_.find_first_of(",() \t\r\n", at_ + 1);
+    constexpr std::size_t longest = 20;
+    fail("has '" + std::string(text_.substr(at_, std::min(end - at_, longest))) +
+         "' in the place of a value");
+  }
   bool at_end() const { return at_ >= text_.size(); }
 
   void skip_blanks() {
@@ -84,11 +91,15 @@ class Parser {
 
   IfcValue number() {
     IfcValue value{.kind = IfcValue::Kind::number};
-    const std::size_t begin = at_ + (text_[at_] == '+' ? 1 : 0);
+    const bool has_plus = text_[at_] == '+' && text_.substr(at_, 2) != "+-";
+    const std::size_t begin = at_ + (has_plus ? 1 : 0);
     const auto [end, error] =
         std::from_chars(text_.data() + begin, text_.data() + text_.size(), value.number);
-    if (error != std::errc()) fail("has '" + std::string(text_.substr(at_, 8)) + "' in the place of a value");
-    at_ = static_cast<std::size_t>(end - text_.data());
+    if (error != std::errc()) fail_at_value();
+    const auto behind = static_cast<std::size_t>(end - text_.data());
+    if (behind < text_.size() && std::string_view(",) \t\r\n/").find(text_[behind]) == std::string_view::npos)
+      fail_at_value();
+    at_ = behind;
     return value;
   }
 
@@ -99,6 +110,7 @@ class Parser {
     while (!at_end() && text_[at_] != ')') {
       value.items.push_back(this->value(depth + 1));
       skip_blanks();
+      if (!at_end() && text_[at_] != ')' && text_[at_] != ',') fail_at_value();
       if (!at_end() && text_[at_] == ',') ++at_;
       skip_blanks();
     }

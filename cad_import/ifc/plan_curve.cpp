@@ -12,10 +12,7 @@
 namespace nurbeam {
 namespace {
 
-double heading_at(const PlanElement& element, double s) {
-  const double change = element.end_curvature - element.start_curvature;
-  return element.heading + s * (element.start_curvature + change * s / (2 * element.length));
-}
+double heading_at(const PlanElement& element, double s) { return element.heading + element.turning.angle(s); }
 
 Eigen::Vector2d direction(double heading) { return {std::cos(heading), std::sin(heading)}; }
 
@@ -24,9 +21,9 @@ Eigen::Vector2d run(const PlanElement& element, double from, double to) {
   constexpr std::array<double, 3> nodes{0, 0.5384693101056831, 0.9061798459386640};
   constexpr std::array<double, 3> weights{0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
   constexpr double turn_of_piece = 0.1;  // [rad]
-  const double sharpest = std::max(std::abs(element.start_curvature), std::abs(element.end_curvature));
-  const int pieces =
-      std::clamp(static_cast<int>(std::ceil(sharpest * std::abs(to - from) / turn_of_piece)), 1, 100'000);
+  constexpr double fewest = 2, most = 100'000;
+  const int pieces = static_cast<int>(
+      std::clamp(std::ceil(element.turning.sharpest * std::abs(to - from) / turn_of_piece), fewest, most));
   const double half = (to - from) / (2 * pieces);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (int piece = 0; piece < pieces; ++piece) {
@@ -38,8 +35,6 @@ Eigen::Vector2d run(const PlanElement& element, double from, double to) {
   }
   return sum;
 }
-
-Eigen::Vector2d place_at(const PlanElement& element, double s) { return element.start + run(element, 0, s); }
 
 const GradeElement* grade_at(const std::vector<GradeElement>& grade, double distance) {
   const GradeElement* found = grade.empty() ? nullptr : &grade.front();
@@ -75,7 +70,7 @@ struct Part {
 
   Eigen::Vector3d place(double s) const {
     Eigen::Vector3d result;
-    result << place_at(*plan, s), height_at(grade, before + s);
+    result << plan->place(s), height_at(grade, before + s);
     return result;
   }
   Eigen::Vector3d tangent(double s) const {
@@ -83,10 +78,8 @@ struct Part {
     result << direction(heading_at(*plan, s)), slope_at(grade, before + s);
     return result;
   }
-  bool is_straight() const { return plan->start_curvature == 0 && plan->end_curvature == 0 && is_even(); }
-  bool is_level_arc() const {
-    return plan->start_curvature == plan->end_curvature && is_even() && slope_at(grade, before) == 0;
-  }
+  bool is_straight() const { return plan->turning.even == 0.0 && is_even(); }
+  bool is_level_arc() const { return plan->turning.even && is_even() && slope_at(grade, before) == 0; }
   bool is_even() const { return grade == nullptr || (grade->bend == 0 && grade->radius == 0); }
 };
 
@@ -98,7 +91,7 @@ NurbsCurve line(const Part& part) {
 }
 
 NurbsCurve arc(const Part& part) {
-  const double curvature = part.plan->start_curvature, heading = heading_at(*part.plan, part.first);
+  const double curvature = *part.plan->turning.even, heading = heading_at(*part.plan, part.first);
   const Eigen::Vector3d start = part.place(part.first), left(-std::sin(heading), std::cos(heading), 0);
   Eigen::Affine3d place = Eigen::Affine3d::Identity();
   place.translation() = start + left / curvature;
@@ -109,14 +102,30 @@ NurbsCurve arc(const Part& part) {
   return conic_curve({radius, radius}, 0, (part.last - part.first) / radius, place);
 }
 
+constexpr int samples = 8;  // of a cubic
+
+/// The places at the ends of so many equal steps along a part, each reached from the one before it.
+Eigen::Matrix3Xd places_of(const Part& part, int steps) {
+  Eigen::Matrix3Xd places(3, steps + 1);
+  places.col(0) = part.place(part.first);
+  const double step = (part.last - part.first) / steps;
+  for (int i = 1; i <= steps; ++i) {
+    const double before = part.first + (i - 1) * step, here = part.first + i * step;
+    places.col(i) << places.col(i - 1).head<2>() + run(*part.plan, before, here),
+        height_at(part.grade, part.before + here);
+  }
+  return places;
+}
+
 /// The cubics through places and tangents at equal distances.
-NurbsCurve cubics(const Part& part, int count) {
+NurbsCurve cubics(const Part& part, const Eigen::Matrix3Xd& places) {
+  const int count = static_cast<int>(places.cols() - 1) / samples;
   std::vector<double> knots(4, part.first);
   Eigen::Matrix3Xd points(3, 2 * count + 2);
   const double step = (part.last - part.first) / count;
   for (int i = 0; i <= count; ++i) {
     const double s = part.first + step * i;
-    const Eigen::Vector3d place = part.place(s), third = part.tangent(s) * step / 3;
+    const Eigen::Vector3d place = places.col(samples * i), third = part.tangent(s) * step / 3;
     points.col(2 * i) = i == 0 ? place : Eigen::Vector3d(place - third);
     points.col(2 * i + 1) = i == count ? place : Eigen::Vector3d(place + third);
     if (i > 0 && i < count) knots.insert(knots.end(), 2, s);
@@ -125,12 +134,12 @@ NurbsCurve cubics(const Part& part, int count) {
   return make_nurbs_curve(KnotVector(3, knots), points, Eigen::VectorXd::Ones(points.cols()));
 }
 
-double deviation_of(const NurbsCurve& curve, const Part& part, int count) {
+double deviation_of(const NurbsCurve& curve, const Part& part, const Eigen::Matrix3Xd& places) {
   double deviation = 0;
-  constexpr int samples = 4;
-  for (int i = 0; i < count * samples; ++i) {
-    const double s = part.first + (part.last - part.first) * (i + 0.5) / (count * samples);
-    deviation = std::max(deviation, (curve.point(s) - part.place(s)).norm());
+  for (Eigen::Index i = 1; i < places.cols(); i += 2) {
+    const double s = part.first + (part.last - part.first) * static_cast<double>(i) /
+                                      static_cast<double>(places.cols() - 1);
+    deviation = std::max(deviation, (curve.point(s) - places.col(i)).norm());
   }
   return deviation;
 }
@@ -139,10 +148,12 @@ AlignmentCurve curve_of(const Part& part, double tolerance) {
   if (part.is_straight()) return {line(part)};
   if (part.is_level_arc()) return {arc(part)};
   constexpr int most = 1024;
+  const double digits = 1e-15 * part.plan->start.cwiseAbs().maxCoeff();  // of places far away
   for (int count = 2;; count *= 2) {
-    NurbsCurve curve = cubics(part, count);
-    const double deviation = deviation_of(curve, part, count);
-    if (deviation <= tolerance || count >= most) return {std::move(curve), deviation};
+    const Eigen::Matrix3Xd places = places_of(part, samples * count);
+    NurbsCurve curve = cubics(part, places);
+    const double deviation = deviation_of(curve, part, places);
+    if (deviation <= std::max(tolerance, digits) || count >= most) return {std::move(curve), deviation};
   }
 }
 
@@ -161,6 +172,8 @@ std::vector<double> breaks_of(const PlanElement& element, const std::vector<Grad
 
 }  // namespace
 
+Eigen::Vector2d PlanElement::place(double s) const { return start + run(*this, 0, s); }
+
 std::vector<AlignmentCurve> alignment_curves(const std::vector<PlanElement>& plan,
                                              const std::vector<GradeElement>& grade, double begin,
                                              double tolerance) {
@@ -170,8 +183,7 @@ std::vector<AlignmentCurve> alignment_curves(const std::vector<PlanElement>& pla
     if (!(element.length >= 0 && std::isfinite(element.length)))
       throw std::runtime_error("the length of an element is none");
     constexpr double most_turn = 100;  // [rad]
-    if (const double sharpest = std::max(std::abs(element.start_curvature), std::abs(element.end_curvature));
-        !(sharpest * element.length <= most_turn))
+    if (!(element.turning.sharpest * element.length <= most_turn))
       throw std::runtime_error("an element of it turns by more than 100 rad");
     if (element.length == 0) continue;  // the last of an alignment, which only tells its end
     const std::vector<double> breaks = breaks_of(element, grade, before);

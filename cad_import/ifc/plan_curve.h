@@ -2,17 +2,20 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "cad_import/ifc/turning.h"
 #include "nurbs/nurbs_curve.h"
 
 namespace nurbeam {
 
-/// An element of an alignment in plan: a line, an arc or a clothoid, by its start and its curvature, which
-/// goes evenly from one value to the other (positive: to the left).
+/// An element of an alignment in plan, by its start and by how its tangent turns from there.
 struct PlanElement {
   Eigen::Vector2d start;
   double heading;  ///< of the tangent there [rad]
   double length;
-  double start_curvature = 0, end_curvature = 0;
+  Turning turning = even_turning(0);
+
+  /// Its place at this arc length from its start.
+  Eigen::Vector2d place(double s) const;
 };
 
 /// The height over the distance along the plan, from `start` on: with an even slope, or a parabola.

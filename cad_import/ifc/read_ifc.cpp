@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/files/told_share.h"
+#include "cad_import/ifc/cut_directrix.h"
 #include "cad_import/ifc/fillets.h"
 #include "cad_import/ifc/ifc_curve.h"
 #include "cad_import/ifc/ifc_model.h"
@@ -101,22 +103,75 @@ class IfcReader {
   void read_products() {
     std::set<int> shapes;
     for (const int shape : model_.with_keyword("IFCPRODUCTDEFINITIONSHAPE")) shapes.insert(shape);
-    for (const int number : model_.numbers()) {
+    constexpr PartOfWork after_text{0.1, 1};
+    std::size_t done = 0;
+    const std::vector<int> numbers = model_.numbers();
+    for (const int number : numbers) {
+      tell_share_of(after_text, done++, numbers.size());
       const std::string_view keyword = model_.keyword(number);
       const bool is_alignment = keyword == "IFCALIGNMENT";
-      if ((shapes.empty() && !is_alignment) || keyword == "IFCALIGNMENTSEGMENT" || is_geometry(keyword))
-        continue;
+      if (keyword == "IFCALIGNMENTSEGMENT" || is_geometry(keyword)) continue;
       attempt(number, [&] {
         const IfcValue given = model_.instance(number);
         const bool has_shape = given.at(6).is_reference() && shapes.contains(given.at(6).reference);
+        if (given.at(6).is_reference() && !has_shape && is_placement(given.at(5)))
+          throw std::runtime_error("its shape, #" + std::to_string(given.at(6).reference) + ", is none");
         if (!has_shape && !is_alignment) return;
         Product product{.name = given.at(2).text, .place = ifc_placement(model_, given.at(5))};
         const std::size_t before = report_.curves.size();
         if (has_shape) read_shape(given.at(6).reference, product);
         if (is_alignment && report_.curves.size() == before)
-          add(ifc_alignment(model_, number, tolerance_), number, product);
+          add_alignment(number, in_world(main_context(), product));
       });
     }
+  }
+
+  bool is_placement(const IfcValue& value) const {
+    return value.is_reference() && model_.keyword(value.reference) == "IFCLOCALPLACEMENT";
+  }
+
+  /// One without a representation.
+  void add_alignment(int alignment, const Product& product) {
+    std::vector<ImportedCurve> curves = ifc_alignment(model_, alignment, tolerance_);
+    if (curves.empty()) throw std::runtime_error("it has neither a representation with curves nor segments");
+    add(std::move(curves), alignment, product);
+  }
+
+  /// What a representation holds.
+  static const std::vector<IfcValue>& items_of(const IfcValue& representation) {
+    if (!representation.text.ends_with("REPRESENTATION"))
+      throw std::runtime_error("it is represented by " + representation.text +
+                               ", which is no representation");
+    return representation.at(3).items;
+  }
+
+  /// The context of the model, where a shape names none; 0: there is none.
+  int main_context() const {
+    const std::vector<int> contexts = model_.with_keyword("IFCGEOMETRICREPRESENTATIONCONTEXT");
+    return contexts.empty() ? 0 : contexts.front();
+  }
+
+  /// Under the world coordinate system of its context, which a note tells where it moves anything.
+  Product in_world(int context, Product product) {
+    constexpr int deepest_context = 10;
+    for (int i = 0; i < deepest_context; ++i) {
+      const std::string_view kind = model_.keyword(context);
+      if (!kind.starts_with("IFCGEOMETRICREPRESENTATION")) return product;
+      const IfcValue given = model_.instance(context);
+      if (kind == "IFCGEOMETRICREPRESENTATIONSUBCONTEXT") {
+        context = given.at(6).reference;
+        continue;
+      }
+      const Eigen::Affine3d world = ifc_placement(model_, given.at(4));
+      if (!world.matrix().isIdentity(0) && moved_contexts_.insert(context).second)
+        say(Severity::note, model_.label(context),
+            "its WorldCoordinateSystem moves all that is drawn in it to " +
+                text_of(Eigen::Vector3d(report_.unit_in_metres * world.translation())) +
+                (world.linear().isIdentity(0) ? "" : " and turns it"));
+      product.place = world * product.place;
+      return product;
+    }
+    return product;
   }
 
   /// Those that are many, and no products.
@@ -141,7 +196,8 @@ class IfcReader {
       if (identifier == "Box" || (identifier == "FootPrint" && has_axis)) continue;
       const auto layer = layers_.find(references[i].reference);
       product.layer = layer == layers_.end() ? "" : layer->second;
-      for (const IfcValue& item : representations[i].at(3).items) read_item(item.reference, product, 0);
+      const Product placed = in_world(representations[i].at(0).reference, product);
+      for (const IfcValue& item : items_of(representations[i])) read_item(item.reference, placed, 0);
     }
   }
 
@@ -150,6 +206,7 @@ class IfcReader {
     attempt(item, [&] {
       if (depth > deepest_item) throw std::runtime_error("it is made of itself: a circle of references");
       const std::string_view keyword = model_.keyword(item);
+      if (keyword.empty()) throw std::runtime_error("a shape refers to it, and the file does not have it");
       if (keyword == "IFCMAPPEDITEM") return read_mapped(model_.instance(item), product, depth);
       if (keyword == "IFCGEOMETRICSET" || keyword == "IFCGEOMETRICCURVESET")
         for (const IfcValue& element : model_.instance(item).at(0).items)
@@ -170,8 +227,8 @@ class IfcReader {
     Product moved = product;
     moved.place =
         product.place * ifc_placement(model_, mapped.at(1)) * ifc_placement(model_, source.at(0)).inverse();
-    for (const IfcValue& item : model_.at(source.at(1)).at(3).items)
-      read_item(item.reference, moved, depth + 1);
+    const IfcValue representation = model_.at(source.at(1));
+    for (const IfcValue& item : items_of(representation)) read_item(item.reference, moved, depth + 1);
   }
 
   /// A pipe: its centre line, and its radii in the file's unit.
@@ -185,8 +242,10 @@ class IfcReader {
     if (!solid.at(0).is_reference()) throw std::runtime_error("it has no directrix");
     Pipe pipe{ifc_curves(model_, solid.at(0).reference, tolerance_), solid.at(1).as_number()};
     if (solid.at(2).kind != IfcValue::Kind::none) pipe.bore = solid.at(2).as_number();
-    if (!is_whole(solid, pipe.centre))
-      warn(item, "its StartParam and EndParam cut its directrix, which is read as a whole");
+    CutDirectrix cut =
+        cut_directrix(std::move(pipe.centre), number_or_none(solid.at(3)), number_or_none(solid.at(4)));
+    if (!cut.remark.empty()) warn(item, cut.remark);
+    pipe.centre = std::move(cut.curves);
     if (solid.text == "IFCSWEPTDISKSOLIDPOLYGONAL" && solid.at(5).kind != IfcValue::Kind::none)
       round_corners(pipe, solid.at(5).as_number());
     return pipe;
@@ -200,22 +259,8 @@ class IfcReader {
     pipe.centre = std::move(rounded);
   }
 
-  /// Whether its parameters go from 0 to as many as it has pieces, or are not there.
-  static bool is_whole(const IfcValue& solid, const std::vector<ImportedCurve>& directrix) {
-    if (solid.at(3).kind == IfcValue::Kind::none && solid.at(4).kind == IfcValue::Kind::none) return true;
-    const double first = solid.at(3).kind == IfcValue::Kind::none ? 0 : solid.at(3).as_number();
-    if (first != 0 || solid.at(4).kind == IfcValue::Kind::none) return first == 0;
-    const double last = solid.at(4).as_number();
-    double pieces = 0, lengths = 0, parameters = 0;
-    for (const ImportedCurve& curve : directrix) {
-      pieces += curve.curve.degree() == 1 ? curve.curve.knots().end() - curve.curve.knots().start() : 1;
-      parameters += curve.curve.knots().end() - curve.curve.knots().start();
-      lengths += length(curve.curve);
-    }
-    constexpr double same = 1e-4;  // as files round them
-    for (const double whole : {pieces, lengths, parameters, 1.0})
-      if (std::abs(last - whole) <= same * whole) return true;
-    return false;
+  static std::optional<double> number_or_none(const IfcValue& value) {
+    return value.kind == IfcValue::Kind::none ? std::nullopt : std::optional(value.as_number());
   }
 
   /// A round bar or tube, cut at right angles; false for any other.
@@ -265,6 +310,7 @@ class IfcReader {
 
   static void check_size(const NurbsCurve& curve) {
     constexpr double largest = 1e15;
+    if (!curve.control_points().allFinite()) throw std::runtime_error("a coordinate of it is no number");
     if (!(curve.control_points().cwiseAbs().maxCoeff() <= largest))
       throw std::runtime_error("it has a coordinate above " + text_of(largest) + " m");
     if (!(curve.control_points().row(3).minCoeff() > 0))
@@ -302,6 +348,11 @@ class IfcReader {
   void tell_others() {
     if (report_.curves.size() >= most_ifc_curves || visited_ > most_items)
       say(Severity::warning, "", "the file repeats its items too often, and the rest of them is not read");
+    if (!model_.damaged().empty())
+      say(Severity::warning, "",
+          "statements are no instances, or have the number of another, and are not read: '" +
+              model_.damaged().front() + "' and " + std::to_string(model_.damaged().size() - 1) +
+              " more; the file is damaged");
     if (warnings_ > most_warnings)
       say(Severity::warning, "", std::to_string(warnings_ - most_warnings) + " more items were not read");
     if (others_.empty()) return;
@@ -321,6 +372,7 @@ class IfcReader {
   ImportReport report_;
   std::map<int, std::string> layers_;  // by item or representation
   std::map<std::string, int> others_;  // by kind
+  std::set<int> moved_contexts_;
   int warnings_ = 0, visited_ = 0;
 };
 

@@ -115,9 +115,25 @@ std::vector<std::string> IgesRecords::values(std::size_t record) const {
 
 void IgesRecords::set_values(std::size_t record, const std::vector<std::string>& values) {
   std::string text = std::to_string(records_[record].type);
-  for (const std::string& value : values) (text += parameter_delimiter_) += value;
+  for (const std::string& value : values) {
+    text += parameter_delimiter_;
+    // OpenCASCADE loses the digits of a number that go over the end of a line; only a text may.
+    const std::size_t end = text.size() % parameter_width + value.size() + 1;
+    if (end > parameter_width && value.find('H') == std::string::npos)
+      text.resize((text.size() + parameter_width - 1) / parameter_width * parameter_width, ' ');
+    text += value;
+  }
   lines_[record].parameters = text + record_delimiter_;
   changed_ = true;
+}
+
+std::size_t IgesRecords::add_like(std::size_t record, const std::vector<std::string>& values) {
+  const std::size_t added = records_.size();
+  records_.push_back(IgesRecord(records_[record]));
+  records_.back().line = static_cast<int>(2 * added + 1);
+  lines_.push_back(Lines(lines_[record]));
+  set_values(added, values);
+  return added;
 }
 
 void IgesRecords::leave_out(std::size_t record) {

@@ -28,6 +28,8 @@ class IgesRecords {
   /// The values of its parameters after the type, without blanks around; empty ones have their default.
   std::vector<std::string> values(std::size_t record) const;
   void set_values(std::size_t record, const std::vector<std::string>& values);
+  /// Adds one like it, with these values; returns its place.
+  std::size_t add_like(std::size_t record, const std::vector<std::string>& values);
   /// Makes it a null entity (0).
   void leave_out(std::size_t record);
   /// Makes it one that is no part of another, under this transformation where it has none.

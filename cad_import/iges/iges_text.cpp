@@ -7,8 +7,10 @@
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESData_IGESWriter.hxx>
+#include <IGESData_LevelListEntity.hxx>
 #include <IGESData_Protocol.hxx>
 #include <IGESGeom_BSplineCurve.hxx>
+#include <IGESGraph_Color.hxx>
 #include <IGESSelect_WorkLibrary.hxx>
 #include <Standard_Failure.hxx>
 #include <TColStd_HArray1OfReal.hxx>
@@ -104,12 +106,25 @@ Handle(IGESGeom_BSplineCurve) entity126(const NurbsCurve& curve, double units_pe
   return entity;
 }
 
+// Its level, where its layer is the number of one, and its colour.
+void add_look(const NamedCurve& named, IGESData_IGESEntity& entity, IGESData_IGESModel& model) {
+  if (const int level = level_number(named.layer); level > 0) entity.InitLevel(nullptr, level);
+  if (!is_colour(named.colour)) return;
+  const auto [red, green, blue] = parts_of_colour(named.colour);
+  const Handle(IGESGraph_Color) colour = new IGESGraph_Color;
+  constexpr double percent = 100.0 / 255;
+  colour->Init(red * percent, green * percent, blue * percent, nullptr);
+  model.AddEntity(colour);
+  entity.InitColor(colour);
+}
+
 void add(const NamedCurve& named, double units_per_metre, IGESData_IGESModel& model) {
   if (const int degree = named.curve.degree(), most = Geom_BSplineCurve::MaxDegree(); degree > most)
     throw std::runtime_error("the curve '" + named.name + "' is of degree " + std::to_string(degree) +
                              ", which few programs read; the highest is " + std::to_string(most));
   const Handle(IGESGeom_BSplineCurve) entity = entity126(named.curve, units_per_metre);
   model.AddEntity(entity);
+  add_look(named, *entity, model);
   if (named.name.empty()) return;
   const Handle(IGESBasic_Name) name = new IGESBasic_Name;
   name->Init(1, hollerith(named.name));
@@ -125,6 +140,8 @@ void set_global_section(const UnitInFile& unit, IGESData_IGESModel& model) {
   global.SetSystemId(hollerith("nurbeam"));
   global.SetSendName(hollerith("curves"));
   global.SetFileName(hollerith("curves"));
+  for (const auto set_time : {&IGESData_GlobalSection::SetDate, &IGESData_GlobalSection::SetLastChangeDate})
+    (global.*set_time)(hollerith("19700101.000000"));  // equal runs write equal files
   global.SetIGESVersion(kVersion5_3);
   global.SetResolution(1e-9 * unit.per_metre);
   model.SetGlobalSection(global);

@@ -126,7 +126,7 @@ std::optional<double> iges_number(const std::string& value) {
   std::string text = value;
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E');
-  const bool has_plus = text[0] == '+',
+  const bool has_plus = text[0] == '+' && text.find_first_of("+-", 1) != 1,
              is_numeral = text.find_first_not_of("0123456789+-.Ee") == std::string::npos;
   double number = 0;
   const auto [end, error] = std::from_chars(text.data() + has_plus, text.data() + text.size(), number);
@@ -149,6 +149,17 @@ std::optional<std::string> values_defect(const IgesRecord& record, const Values&
     return "it has " + std::to_string(values.size()) + " of the " + std::to_string(count) +
            " values that its kind needs";
   return std::nullopt;
+}
+
+std::size_t empty_numbers(const IgesRecord& record, const Values& values) {
+  // How many whole numbers stand before the first number of each kind.
+  static const std::map<int, std::size_t> first_numbers{{106, 2}, {112, 4}, {126, 6}};
+  const auto first = first_numbers.find(record.type);
+  if (first == first_numbers.end()) return 0;
+  const std::size_t last = std::min(needed(record, values), values.size());
+  std::size_t count = 0;
+  for (std::size_t i = first->second; i < last; ++i) count += values[i].empty() ? 1 : 0;
+  return count;
 }
 
 std::vector<std::size_t> parts_in(const IgesRecord& record, const Values& values) {

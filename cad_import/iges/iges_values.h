@@ -17,6 +17,10 @@ std::optional<double> iges_number(const std::string& value);
 /// where all that its kind needs is there, and for kinds without such values.
 std::optional<std::string> values_defect(const IgesRecord& record, const std::vector<std::string>& values);
 
+/// How many numbers in the lists of a curve are empty, and so 0: points, knots, weights. Lines and arcs,
+/// whose zeros programs do leave out, have none.
+std::size_t empty_numbers(const IgesRecord& record, const std::vector<std::string>& values);
+
 /// Where the values name other entities that this one is made of; empty for kinds that are not made of
 /// others.
 std::vector<std::size_t> parts_in(const IgesRecord& record, const std::vector<std::string>& values);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace nurbeam {
 namespace {
@@ -38,7 +39,9 @@ void add_curve(const NamedCurve& named, double unit, JsonText& out) {
   const NurbsCurve& curve = named.curve;
   const Eigen::Matrix3Xd points = curve.control_points().colwise().hnormalized() / unit;
   out.add("    {\"name\": " + quoted(named.name));
-  if (!named.part.empty()) out.add(", \"part\": " + quoted(named.part));
+  for (const auto& [key, text] :
+       {std::pair("part", &named.part), {"layer", &named.layer}, {"colour", &named.colour}})
+    if (!text->empty()) out.add(std::string(", \"") + key + "\": " + quoted(*text));
   out.add(",\n     \"degree\": " + std::to_string(curve.degree()) + ",\n     \"knots\": ");
   out.add(curve.knots().knots());
   out.add(",\n     \"control_points\": [");

@@ -14,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "cad_import/occt/bar_joints.h"
 #include "cad_import/occt/edge_curve.h"
 #include "cad_import/occt/pipe_joints.h"
 #include "cad_import/occt/pipe_piece.h"
@@ -97,13 +98,25 @@ CentreLine centre_line(const Wall& wall, double tolerance) {
   return {std::move(curve), wall.face};
 }
 
+CentreLine centre_line(const BarLine& line) {
+  const Eigen::Vector3d start = line.start * metres_per_millimetre, end = line.end * metres_per_millimetre;
+  const double length = (end - start).norm();
+  Eigen::Matrix3Xd points(3, 2);
+  points << start, end;
+  return {{.entity = "centre line",
+           .free = false,
+           .bar = line.section,
+           .curve = make_nurbs_curve(KnotVector(1, {0, 0, length, length}), points, Eigen::Vector2d::Ones())},
+          line.face};
+}
+
 // Those that meet end to end one after another, each running on from the one before it.
 std::vector<CentreLine> in_running_order(const std::vector<CentreLine>& lines) {
   std::vector<NurbsCurve> curves;
   double largest = 0;
   for (const CentreLine& line : lines) {
     curves.push_back(line.curve.curve);
-    largest = std::max(largest, line.curve.pipe_radius);
+    largest = std::max({largest, line.curve.pipe_radius, line.curve.bar.width / 2});
   }
   std::vector<CentreLine> ordered;
   for (const Chain& chain : find_chains(curves, worst_deviation * largest))
@@ -221,7 +234,9 @@ CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance) {
   for (const Wall& wall : walls.other)
     if (!wall.is_bore && turns_all_round(wall) && !is_piece_of(wall, pieces))
       found.remarks.push_back(refusal(wall));
-  for (const Wall& wall : joined_walls(outer_pieces(walls.square, pieces))) {
+  const JoinedWalls joined = joined_walls(outer_pieces(walls.square, pieces));
+  found.remarks.insert(found.remarks.end(), joined.remarks.begin(), joined.remarks.end());
+  for (const Wall& wall : joined.walls) {
     try {
       OCC_CATCH_SIGNALS
       found.lines.push_back(centre_line(wall, tolerance));
@@ -231,6 +246,9 @@ CentreLines centre_lines(const TopoDS_Shape& shape, double tolerance) {
       found.remarks.push_back("face " + std::to_string(wall.face) + ": " + e.what());
     }
   }
+  JoinedBars bars = joined_bars(hollow_bars(shape, faces));
+  for (const BarLine& line : bars.lines) found.lines.push_back(centre_line(line));
+  for (std::string& remark : bars.remarks) found.remarks.push_back(std::move(remark));
   found.lines = in_running_order(found.lines);
   return found;
 }

@@ -8,6 +8,10 @@
 #include <gp_Vec.hxx>
 #include <limits>
 #include <optional>
+#include <utility>
+
+#include "cad_import/report/length_unit.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
@@ -76,7 +80,7 @@ class Joints {
     for (const auto& [piece, place] : branches_) divide(piece, place);
   }
 
-  std::vector<Wall> walls() const {
+  JoinedWalls joined() const {
     std::vector<Wall> walls;
     for (std::size_t i = 0; i < pieces_.size(); ++i)
       for (std::size_t k = 0; k + 1 < breaks_[i].size(); ++k) {
@@ -85,7 +89,12 @@ class Joints {
         wall.last = breaks_[i][k + 1];
         if (wall.last > wall.first) walls.push_back(std::move(wall));
       }
-    return walls;
+    constexpr std::size_t most_remarks = 5;
+    std::vector<std::string> remarks(remarks_.begin(),
+                                     remarks_.begin() + std::min(remarks_.size(), most_remarks));
+    if (remarks_.size() > most_remarks)
+      remarks.push_back(std::to_string(remarks_.size() - most_remarks) + " more ends of pipes are cut so");
+    return {std::move(walls), std::move(remarks)};
   }
 
  private:
@@ -126,9 +135,24 @@ class Joints {
       best = meeting;
       found = k;
     }
-    if (!found) return end.middle;
+    if (!found) {
+      tell_of_middle(piece, end);
+      return end.middle;
+    }
     branches_.emplace_back(*found, best.there);
     return best.here;
+  }
+
+  void tell_of_middle(const PipePiece& piece, const PipeEnd& end) {
+    const Wall& wall = piece.wall;
+    const gp_Pnt place = wall.centre->Value(end.middle);
+    const double off = (end.high - end.low) / 2 * speed_of(wall) / millimetres_per_metre;
+    remarks_.push_back("face " + std::to_string(wall.face) + ": the pipe of radius " +
+                       text_of(wall.radius / millimetres_per_metre) +
+                       " m is cut neither by a plane nor on the centre line of another pipe at " +
+                       text_of(Eigen::Vector3d(place.X(), place.Y(), place.Z()) / millimetres_per_metre) +
+                       "; its centre line ends midway of the cut, up to " + text_of(off, 3) +
+                       " m from where it may be meant to end");
   }
 
   /// Unless the place is one of its ends.
@@ -146,10 +170,11 @@ class Joints {
   const std::vector<PipePiece>& pieces_;
   std::vector<std::vector<double>> breaks_;  // of each piece, ascending
   std::vector<std::pair<std::size_t, double>> branches_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace
 
-std::vector<Wall> joined_walls(const std::vector<PipePiece>& pieces) { return Joints(pieces).walls(); }
+JoinedWalls joined_walls(const std::vector<PipePiece>& pieces) { return Joints(pieces).joined(); }
 
 }  // namespace nurbeam

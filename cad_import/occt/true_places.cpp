@@ -60,7 +60,11 @@ bool TruePlaces::put_in_place(const TopLoc_Location& location, ImportedCurve& cu
   const Eigen::Affine3d move = *place * in_metres(location.Transformation(), metres_per_millimetre).inverse();
   const double scale = std::cbrt(std::abs(move.linear().determinant()));
   curve.curve = placed(curve.curve, move);
-  for (double* size : {&curve.deviation, &curve.pipe_radius, &curve.bore_radius}) *size *= scale;
+  for (double* size :
+       {&curve.deviation, &curve.pipe_radius, &curve.bore_radius, &curve.bar.width, &curve.bar.height})
+    *size *= scale;
+  curve.bar.area *= std::pow(scale, 2);
+  curve.bar.second_moments *= std::pow(scale, 4);
   return true;
 }
 

@@ -5,8 +5,11 @@
 #include <Standard_Failure.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
+#include <algorithm>
+#include <charconv>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "cad_import/step/local_origin.h"
 #include "cad_import/step/spine.h"
@@ -30,6 +33,26 @@ std::string text_of_all(const std::vector<Item>& items, const Shape& shape_of) {
   }
 }
 
+/// The first number in the text that is none, as "1.2.3", of which OpenCASCADE would read a part, behind the
+/// header, which may have any; "" where there is none.
+std::string broken_number(std::string_view text) {
+  constexpr std::string_view space = " \t\r\n", in_numbers = "+-.0123456789eE";
+  text.remove_prefix(std::min(text.find("\nLocations"), text.size()));
+  for (std::size_t at = text.find_first_not_of(space); at < text.size();
+       at = text.find_first_not_of(space, at)) {
+    const std::string_view token = text.substr(at, text.find_first_of(space, at) - at);
+    at += token.size();
+    if (token.find_first_not_of(in_numbers) != std::string_view::npos ||
+        token.find_first_of("0123456789") == std::string_view::npos)
+      continue;
+    const std::size_t sign = token.starts_with('+') && !token.starts_with("+-") ? 1 : 0;
+    double value = 0;
+    const auto [end, error] = std::from_chars(token.data() + sign, token.data() + token.size(), value);
+    if (end != token.data() + token.size()) return std::string(token);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string brep_text(const std::vector<NamedCurve>& curves) {
@@ -50,6 +73,10 @@ std::string brep_solid_text(const std::vector<NamedSolid>& solids) {
 TopoDS_Shape brep_shape(const std::string& content) {
   const char* const damaged =
       "OpenCASCADE reads no shape in it: the file is damaged; export or copy it again";
+  if (const std::string broken = broken_number(content); !broken.empty())
+    throw std::runtime_error(
+        "'" + broken +
+        "' stands in it in the place of a number; the file is damaged; export or copy it again");
   std::istringstream in(content);
   in.exceptions(std::ios::failbit);  // else OpenCASCADE reads beyond the end for ever
   TopoDS_Shape shape;

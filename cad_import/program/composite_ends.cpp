@@ -86,7 +86,7 @@ void join_composites(const XSControl_Reader& reader, const CurvesOfEdges& curves
   Repairs repairs;
   for (int i = 1; i <= process->NbMapped(); ++i) {
     const Handle(Standard_Transient) entity = process->Mapped(i);
-    if (!is_composite(entity)) continue;
+    if (entity.IsNull() || !is_composite(entity)) continue;  // what a reference lacks is mapped, too
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
     if (shape.IsNull()) continue;
     const std::vector<const TopoDS_TShape*> edges = edges_of_composite(shape);

@@ -132,7 +132,7 @@ class Reader {
   /// where there is no time.
   std::optional<int> find_culprit() {
     int survived = 0, crashes = *count_.get();
-    if (crashes <= 0 || !crashes_on(survived).has_value() || *crashes_on(survived)) return std::nullopt;
+    if (crashes <= 0 || crashes_on(survived).value_or(true)) return std::nullopt;
     while (crashes - survived > 1) {
       const int middle = survived + (crashes - survived) / 2;
       const std::optional<bool> crashed = crashes_on(middle);

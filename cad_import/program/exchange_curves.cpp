@@ -294,7 +294,7 @@ std::vector<std::string> place(const DeformedCurve& wanted, const std::optional<
 }  // namespace
 
 Exchanged exchange_curves(const std::filesystem::path& source, const std::vector<DeformedCurve>& curves) {
-  const std::string content = drawing_text(source);
+  const std::string content = drawing_text(source).content;
   if (format_of(content) != CadFormat::step)
     throw std::runtime_error("it cannot be read as a STEP file; only into one can curves be written back");
   be_silent();

@@ -6,6 +6,7 @@
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_Static.hxx>
+#include <Message_ProgressIndicator.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
@@ -37,11 +38,13 @@
 #include "cad_import/program/memory_file.h"
 #include "cad_import/program/model_checks.h"
 #include "cad_import/program/part_names.h"
+#include "cad_import/program/reading_share.h"
 #include "cad_import/program/restated_curves.h"
 #include "cad_import/program/shape_curves.h"
 #include "cad_import/program/sound_iges.h"
 #include "cad_import/report/length_unit.h"
 #include "cad_import/step/broken_instances.h"
+#include "cad_import/step/encoded_text.h"
 #include "cad_import/step/set_items.h"
 #include "cad_import/step/step_units.h"
 #include "cad_import/step/supplemental_geometry.h"
@@ -92,10 +95,21 @@ void add_failures(const Interface_CheckIterator& checks, const Interface_Interfa
   }
 }
 
+/// Tells how far OpenCASCADE has translated a file.
+class TranslationShare : public Message_ProgressIndicator {
+ private:
+  void Show(const Message_ProgressScope& scope, const Standard_Boolean) override {
+    const PartOfWork part = reading_share::translation;
+    tell_share(part.begin + (part.end - part.begin) * GetPosition());
+    (void)scope;
+  }
+};
+
 // Returns what was said anew for it.
 RestatedCurves transfer(XSControl_Reader& reader, double tolerance, ImportReport& report) {
   RestatedCurves restated = restate_curves(reader, report);
-  reader.TransferRoots();
+  tell_share(reading_share::translation.begin);
+  reader.TransferRoots(Handle(TranslationShare)(new TranslationShare)->Start());
   LostCurves lost = add_curves(reader, restated, tolerance, report);
   lost.named.insert(restated.refused.begin(), restated.refused.end());
   const Handle(XSControl_WorkSession) session = reader.WS();
@@ -164,20 +178,25 @@ void leave_out(const KeptEntities& kept, const Interface_InterfaceModel& model, 
     });
 }
 
+void tell_of_broken(const std::vector<BrokenInstance>& broken, ImportReport& report) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(broken.size(), most_reported_failures); ++i)
+    add_diagnostic(report, Severity::warning, broken[i].label,
+                   "left out: '" + broken[i].token + "' in it is no value of a STEP file; correct it");
+  if (broken.size() > most_reported_failures)
+    add_diagnostic(report, Severity::warning, "",
+                   std::to_string(broken.size() - most_reported_failures) + " more instances were left out");
+}
+
 /// Reads the file, without the instances that the syntax of STEP does not allow, where there are such.
 void read_sound(STEPControl_Reader& reader, std::string content, ImportReport& report) {
+  if (may_have_broken_numbers(content))
+    tell_of_broken(remove_broken_instances(content, BrokenToken::number), report);
   try {
     return read(reader, content, report);
   } catch (const std::runtime_error&) {
-    const std::vector<BrokenInstance> broken = remove_broken_instances(content);
+    const std::vector<BrokenInstance> broken = remove_broken_instances(content, BrokenToken::any);
     if (broken.empty()) throw;
-    for (std::size_t i = 0; i < std::min<std::size_t>(broken.size(), most_reported_failures); ++i)
-      add_diagnostic(report, Severity::warning, broken[i].label,
-                     "left out: '" + broken[i].token + "' in it is no value of a STEP file; correct it");
-    if (broken.size() > most_reported_failures)
-      add_diagnostic(
-          report, Severity::warning, "",
-          std::to_string(broken.size() - most_reported_failures) + " more instances were left out");
+    tell_of_broken(broken, report);
   }
   reader = STEPControl_Reader();
   read(reader, content, report);
@@ -187,7 +206,7 @@ void read_step(const std::string& content, double tolerance, const ReadFile& rea
                const KeptEntities& kept, ImportReport& report) {
   start_step();
   STEPControl_Reader reader;
-  read_sound(reader, content, report);
+  read_sound(reader, with_encoded_apostrophes(content), report);
   leave_out(kept, *reader.Model(), report);
   if (restate_units(*reader.Model())) warn_of_angles(*reader.Model(), report);
   report_step_unit(*reader.Model(), report);

@@ -23,20 +23,12 @@ ImportReport refusal(const fs::path& file, const std::string& message) {
   return report;
 }
 
-// `assemblies`: the files that refer to this one, directly or not.
 ImportReport read_file_of(const fs::path& file, double tolerance, const KeptEntities& kept,
-                          std::vector<fs::path> assemblies) {
-  std::error_code error;
-  const fs::path itself = fs::weakly_canonical(file, error);
-  if (std::find(assemblies.begin(), assemblies.end(), itself) != assemblies.end())
-    return refusal(file, "the assembly is a part of itself; export it as one file");
-  assemblies.push_back(itself);
-  std::string content;
-  try {
-    content = drawing_text(file);
-  } catch (const std::runtime_error& e) {
-    return refusal(file, e.what());
-  }
+                          std::vector<fs::path> assemblies);
+
+/// Of the text of a drawing. `assemblies`: the files that refer to this one, directly or not, and itself.
+ImportReport read_text(const fs::path& file, const std::string& content, double tolerance,
+                       const KeptEntities& kept, const std::vector<fs::path>& assemblies) {
   const std::optional<CadFormat> format = format_of(content);
   if (!format) {
     return refusal(
@@ -51,10 +43,48 @@ ImportReport read_file_of(const fs::path& file, double tolerance, const KeptEnti
       [&](const fs::path& part) { return read_file_of(part, tolerance, {}, assemblies); }, kept);
 }
 
+void add_left_out(const std::vector<std::string>& names, ImportReport& report) {
+  constexpr std::size_t most_names = 5;
+  if (names.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i)
+    list += (i == 0 ? "" : ", ") + names[i];
+  report.diagnostics.push_back({Severity::warning, report.file,
+                                "the archive holds " + std::to_string(names.size()) +
+                                    " more CAD file(s), which are not read: " + list +
+                                    (names.size() > most_names ? ", ..." : "") + "; unpack it to read them"});
+}
+
+ImportReport read_file_of(const fs::path& file, double tolerance, const KeptEntities& kept,
+                          std::vector<fs::path> assemblies) {
+  std::error_code error;
+  const fs::path itself = fs::weakly_canonical(file, error);
+  if (std::find(assemblies.begin(), assemblies.end(), itself) != assemblies.end())
+    return refusal(file, "the assembly is a part of itself; export it as one file");
+  assemblies.push_back(itself);
+  Unpacked drawing;
+  try {
+    drawing = drawing_text(file);
+  } catch (const std::runtime_error& e) {
+    return refusal(file, e.what());
+  }
+  ImportReport report = read_text(file, drawing.content, tolerance, kept, assemblies);
+  add_left_out(drawing.left_out, report);
+  return report;
+}
+
 }  // namespace
 
 ImportReport read_file(const fs::path& file, double tolerance, const KeptEntities& kept) {
   return read_file_of(file, tolerance, kept, {});
+}
+
+ImportReport read_content(const fs::path& file, std::string content, double tolerance) {
+  try {
+    return read_text(file, drawing_text_of(std::move(content)).content, tolerance, {}, {file});
+  } catch (const std::runtime_error& e) {
+    return refusal(file, e.what());
+  }
 }
 
 }  // namespace nurbeam

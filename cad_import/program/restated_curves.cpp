@@ -69,9 +69,12 @@ bool places_a_shape(const StepRepr_MappedItem& item) {
          item.MappingSource()->MappedRepresentation()->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation));
 }
 
+bool is_placement(const Entity& entity) {
+  return !Handle(StepGeom_Axis2Placement3d)::DownCast(entity).IsNull();
+}
+
 bool is_between_axes(const StepRepr_MappedItem& item) {
-  return !Handle(StepGeom_Axis2Placement3d)::DownCast(item.MappingSource()->MappingOrigin()).IsNull() &&
-         !Handle(StepGeom_Axis2Placement3d)::DownCast(item.MappingTarget()).IsNull();
+  return is_placement(item.MappingSource()->MappingOrigin()) && is_placement(item.MappingTarget());
 }
 
 using Operator = Handle(StepGeom_CartesianTransformationOperator3d);
@@ -172,11 +175,16 @@ class StepCurves {
     const Entity given = relation->TransformationOperator().Value();
     const auto known = Operator::DownCast(given);
     if (known.IsNull()) {
-      if (Handle(StepRepr_ItemDefinedTransformation)::DownCast(given).IsNull())
+      const auto between = Handle(StepRepr_ItemDefinedTransformation)::DownCast(given);
+      if (between.IsNull())
         remarks_.warn(
             relation,
             "what it places stands as if it were not placed: its transformation is neither "
             "ITEM_DEFINED_TRANSFORMATION nor CARTESIAN_TRANSFORMATION_OPERATOR_3D; place it by one");
+      else if (!is_placement(between->TransformItem1()) || !is_placement(between->TransformItem2()))
+        remarks_.warn(relation,
+                      "what it places stands as if it were not placed: the items of its "
+                      "ITEM_DEFINED_TRANSFORMATION are not both AXIS2_PLACEMENT_3D; place it between two");
       remarks_.attempt(relation, [&] { restate_between_axes(*relation); });
       return;
     }

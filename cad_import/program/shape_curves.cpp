@@ -16,6 +16,7 @@
 
 #include "cad_import/occt/centre_line.h"
 #include "cad_import/occt/edge_curve.h"
+#include "cad_import/program/reading_share.h"
 #include "cad_import/report/length_unit.h"
 #include "nurbs/number_text.h"
 
@@ -79,6 +80,8 @@ CurvesOfEdges add_edges(const TopoDS_Shape& shape, const ShapeFacts& facts, doub
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   for (int i = 1; i <= faces_of_edges.Extent(); ++i) {
+    tell_share_of(reading_share::edges, static_cast<std::size_t>(i - 1),
+                  static_cast<std::size_t>(faces_of_edges.Extent()));
     const TopoDS_Edge& edge = TopoDS::Edge(faces_of_edges.FindKey(i));
     if (BRep_Tool::Degenerated(edge)) continue;
     const auto known = facts.origins.find(edge.TShape().get());

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "cad_import/iges/divided_spline.h"
 #include "cad_import/iges/iges_records.h"
 #include "cad_import/iges/iges_values.h"
 #include "cad_import/program/entity_origins.h"
 #include "cad_import/program/repairs.h"
 #include "cad_import/report/leniency.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
@@ -25,13 +26,6 @@ std::string as_whole(const std::string& value) {
   const std::optional<double> number = iges_number(value);
   if (value.find('.') == std::string::npos || !number || *number != std::floor(*number)) return value;
   return std::to_string(static_cast<long>(*number));
-}
-
-std::string real_text(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << std::showpoint << value;
-  return text.str();
 }
 
 class SoundIges {
@@ -47,6 +41,7 @@ class SoundIges {
     for (std::size_t i = 0; i < records_.all().size(); ++i) cut_circles(i);
     if (!left_out_.empty()) divide_composites();
     repairs_.tell(report_);
+    tell_of_empty();
     if (named_ > most_left_out)
       add_diagnostic(report_, Severity::warning, "",
                      std::to_string(named_ - most_left_out) + " more damaged entities were left out");
@@ -81,10 +76,31 @@ class SoundIges {
     std::vector<std::string> values = records_.values(i);
     if (const auto defect = values_defect(record(i), values)) {
       warn(i, "damaged, and left out: " + *defect + "; export or copy it again");
-      leave_out(i);
-    } else if (record(i).type == bspline) {
-      repair_spline(i, std::move(values));
+      return leave_out(i);
     }
+    if (const std::string missing = missing_part(i, values); !missing.empty()) {
+      warn(i, "damaged, and " + std::string(is_list(i) ? "read without it" : "left out") + ": it names D" +
+                  missing + ", which the file does not have; export or copy it again");
+      if (!is_list(i)) return leave_out(i);
+    }
+    if (empty_numbers(record(i), values) > 0) empty_.push_back(i);
+    if (record(i).type == bspline) repair_spline(i, std::move(values));
+  }
+
+  /// The first part that is no entity of the file; "" where all are.
+  std::string missing_part(std::size_t i, const std::vector<std::string>& values) const {
+    for (const std::size_t at : parts_in(record(i), values))
+      if (part_at(values[at]) == IgesRecords::npos && (!values[at].empty() && values[at] != "0"))
+        return values[at];
+    return "";
+  }
+
+  void tell_of_empty() {
+    if (empty_.empty()) return;
+    add_diagnostic(report_, Severity::warning, label(empty_[0]),
+                   "numbers of it are empty, and read as 0; so in " + std::to_string(empty_.size()) +
+                       (empty_.size() == 1 ? " entity" : " entities") +
+                       " in all: where they were lost, the curve is another one: export or copy it again");
   }
 
   void repair_spline(std::size_t i, std::vector<std::string> values) {
@@ -96,16 +112,30 @@ class SoundIges {
     std::vector<double> knots;
     for (std::size_t k = 0; k < count; ++k) knots.push_back(*iges_number(values[6 + k]));
     if (const double change = repair_knots(knots, degree); change > 0) {
-      for (std::size_t k = 0; k < count; ++k) values[6 + k] = real_text(knots[k]);
+      for (std::size_t k = 0; k < count; ++k) values[6 + k] = iges_real(knots[k]);
       repairs_.add_relative(label(i), repaired_knots, change);
     }
     if (values.size() < range + 2) {
       warn(i, "its last values V(0) and V(1), from where to where it goes, are lost; all of it is read");
       values.resize(range);
-      values.push_back(real_text(knots[static_cast<std::size_t>(degree)]));
-      values.push_back(real_text(knots[last + 1]));
+      values.push_back(iges_real(knots[static_cast<std::size_t>(degree)]));
+      values.push_back(iges_real(knots[last + 1]));
     }
     if (values != before) records_.set_values(i, values);
+    divide_spline(i, divided_spline(values, knots));
+  }
+
+  /// Its pieces stand for a spline that has gaps, by themselves.
+  void divide_spline(std::size_t i, const DividedSpline& spline) {
+    if (spline.pieces.empty()) return;
+    warn(i, "its knot " + text_of(spline.knot) +
+                " stands more often than its degree, and divides it: it is read as " +
+                std::to_string(spline.pieces.size()) + " curve(s), whose ends are up to " +
+                text_of(spline.widest) + " apart there, in the unit of the file");
+    std::vector<std::size_t> pieces;
+    for (const std::vector<std::string>& piece : spline.pieces) pieces.push_back(records_.add_like(i, piece));
+    leave_out(i);
+    divided_[i] = pieces;
   }
 
   std::vector<std::size_t> parts_of(std::size_t i) const {
@@ -192,7 +222,10 @@ class SoundIges {
       open.pop_back();
       const auto divided = divided_.find(i);
       if (!seen.insert(i).second || (left_out_.contains(i) && divided == divided_.end())) continue;
-      if (above != 0 && record(i).matrix != 0 && record(i).matrix != above) continue;  // two: it stays lost
+      if (above != 0 && record(i).matrix != 0 && record(i).matrix != above) {
+        warn(i, "left out: the composite curve that it is a part of is damaged, and both are moved");
+        continue;
+      }
       if (divided == divided_.end()) {
         records_.set_free(i, above);
         pieces.push_back(i);
@@ -232,7 +265,9 @@ class SoundIges {
   ImportReport& report_;
   Repairs repairs_;
   std::set<std::size_t> left_out_, passed_;
-  std::map<std::size_t, std::vector<std::size_t>> divided_;  // composite curves left out, with their parts
+  std::vector<std::size_t> empty_;  // that have empty numbers
+  std::map<std::size_t, std::vector<std::size_t>>
+      divided_;  // composites and splines left out, with their parts
   int named_ = 0;
 };
 

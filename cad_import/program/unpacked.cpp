@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cad_import/files/cad_file_name.h"
@@ -82,24 +83,30 @@ std::vector<ZipEntry> entries_of(std::string_view archive) {
   return entries.empty() ? std::vector{first} : entries;
 }
 
+bool is_cad_file(const ZipEntry& entry) {
+  return format_by_name(entry.name) && !entry.name.starts_with("__MACOSX/");
+}
+
 /// The first that is a CAD file by its name or its content, else the first of all.
-std::string cad_file_of_zip(std::string_view archive, std::size_t limit) {
+Unpacked cad_file_of_zip(std::string_view archive, std::size_t limit) {
   const std::vector<ZipEntry> entries = entries_of(archive);
+  std::vector<std::string> names;
   for (const ZipEntry& entry : entries)
-    if (format_by_name(entry.name) && !entry.name.starts_with("__MACOSX/"))
-      return content_of(archive, entry, limit);
+    if (is_cad_file(entry)) names.push_back(entry.name);
   for (const ZipEntry& entry : entries)
-    if (std::string content = content_of(archive, entry, limit); format_of(content)) return content;
-  return content_of(archive, entries.front(), limit);
+    if (is_cad_file(entry)) return {content_of(archive, entry, limit), {names.begin() + 1, names.end()}};
+  for (const ZipEntry& entry : entries)
+    if (std::string content = content_of(archive, entry, limit); format_of(content)) return {content};
+  return {content_of(archive, entries.front(), limit)};
 }
 
 }  // namespace
 
-std::string unpacked(std::string content, std::size_t limit) {
+Unpacked unpacked(std::string content, std::size_t limit) {
   constexpr int gzip = 16 + MAX_WBITS;
   if (content.starts_with("PK\x03\x04")) return cad_file_of_zip(content, limit);
-  if (content.starts_with("\x1F\x8B")) return inflated(content, gzip, limit);
-  return content;
+  if (content.starts_with("\x1F\x8B")) return {inflated(content, gzip, limit)};
+  return {std::move(content)};
 }
 
 }  // namespace nurbeam

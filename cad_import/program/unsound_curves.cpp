@@ -11,12 +11,15 @@
 #include <StepGeom_OffsetCurve3d.hxx>
 #include <StepGeom_TrimmedCurve.hxx>
 #include <StepGeom_Vector.hxx>
+#include <TColStd_HArray1OfReal.hxx>
 #include <algorithm>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "cad_import/program/missing_parts.h"
 #include "cad_import/step/set_items.h"
 
 namespace nurbeam {
@@ -123,9 +126,23 @@ Handle(StepGeom_Direction) zero_among(const std::vector<Handle(StepGeom_Directio
   return zero == directions.end() ? Handle(StepGeom_Direction)() : *zero;
 }
 
+/// Directions whose values are lost become (0, 0, 0): OpenCASCADE crashes on one without any.
+std::set<const Standard_Transient*> filled_directions(const StepData_StepModel& model) {
+  std::set<const Standard_Transient*> filled;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto direction = Handle(StepGeom_Direction)::DownCast(model.Value(i));
+    if (direction.IsNull() || !direction->DirectionRatios().IsNull()) continue;
+    direction->SetDirectionRatios(new TColStd_HArray1OfReal(1, 3, 0.0));
+    filled.insert(direction.get());
+  }
+  return filled;
+}
+
 void refuse_zero_directions(const StepData_StepModel& model, const Interface_Graph& graph, Remarks& remarks) {
+  const std::set<const Standard_Transient*> filled = filled_directions(model);
   const auto of_none = [&](const Handle(StepGeom_Direction) & zero) {
-    return entity_label(model, zero) + " is (0, 0, 0), which is no direction";
+    return entity_label(model, zero) +
+           (filled.contains(zero.get()) ? " has no values" : " is (0, 0, 0), which is no direction");
   };
   for (int i = 1; i <= model.NbEntities(); ++i) {
     if (const auto placement = Handle(StepGeom_Axis2Placement3d)::DownCast(model.Value(i))) {
@@ -157,6 +174,7 @@ void refuse_zero_directions(const StepData_StepModel& model, const Interface_Gra
 void refuse_unsound_curves(const StepData_StepModel& model, const Interface_Graph& graph, Remarks& remarks) {
   const Circles circles(model, remarks);
   if (!circles.empty()) replace_items(model, [&](const Entity& item) { return circles.concern(item); });
+  fill_missing_parts(model, graph, remarks);
   refuse_zero_directions(model, graph, remarks);
 }
 

@@ -9,11 +9,19 @@
 
 namespace nurbeam {
 
+/// The section of a hollow bar with plane sides, as a rectangular tube.
+struct BarSection {
+  double width = 0, height = 0;                              ///< along its longest side and across [m]
+  double area = 0;                                           ///< of the material [m^2]
+  Eigen::Vector2d second_moments = Eigen::Vector2d::Zero();  ///< about the width, and about the height [m^4]
+};
+
 /// One curve of a CAD file, in metres, in world coordinates (locations and transforms applied).
 struct ImportedCurve {
-  std::string name = {};    ///< as in the file, else that of its part; "" for none
-  std::string entity = {};  ///< kind in the file's terms: "line", "circle", "ellipse", "parabola",
-                            ///< "hyperbola", "bspline", "bezier", "offset", "other"; "centre line" of a pipe
+  std::string name = {};  ///< as in the file, else that of its part; "" for none
+  std::string entity =
+      {};  ///< kind in the file's terms: "line", "circle", "ellipse", "parabola",
+           ///< "hyperbola", "bspline", "bezier", "offset", "other"; "centre line" of a pipe or bar
   std::string layer = {};   ///< STEP, DXF: name of its layer; IGES: number of its level; "" for none
   std::string colour = {};  ///< "#rrggbb"; "" for none
   std::string part = {};    ///< path of the part that holds it, "bridge/cable" (STEP: names of occurrences or
@@ -24,9 +32,10 @@ struct ImportedCurve {
   double deviation = 0;     ///< measured distance from the entity when not exact [m]
   double pipe_radius = 0;   ///< of a centre line: the pipe's outer radius [m]; 0 for a curve of the file
   double bore_radius = 0;   ///< of a centre line: the pipe's inner radius [m]; 0 for a solid rod
+  BarSection bar = {};      ///< of the centre line of a hollow bar, whose pipe_radius is 0
   NurbsCurve curve;
 
-  bool is_centre_line() const { return pipe_radius > 0; }
+  bool is_centre_line() const { return pipe_radius > 0 || bar.area > 0; }
 };
 
 /// The curves found in a file, and a Diagnostic for every entity skipped or altered.

@@ -12,8 +12,18 @@ namespace nurbeam {
 struct NamedCurve {
   std::string name;
   NurbsCurve curve;
-  std::string part = {};  ///< name of its product in STEP; "" for that of the curve
+  std::string part = {};    ///< name of its product in STEP; "" for that of the curve
+  std::string layer = {};   ///< "" for none; in IGES it is the number of a level
+  std::string colour = {};  ///< "#rrggbb"; "" for none
 };
+
+/// Whether a text is a colour, "#rrggbb".
+bool is_colour(const std::string& text);
+/// Its red, green and blue, 0 to 255.
+std::array<int, 3> parts_of_colour(const std::string& colour);
+
+/// The number that a layer of IGES is; 0 where its name is none.
+int level_number(const std::string& layer);
 
 /// A curve with a circular section, solid or hollow.
 struct NamedPipe {

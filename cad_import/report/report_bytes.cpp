@@ -14,7 +14,10 @@ void write(ByteWriter& out, const ImportedCurve& curve) {
   out.number(curve.free);
   out.number(curve.hidden);
   out.number(curve.exact);
-  for (double number : {curve.deviation, curve.pipe_radius, curve.bore_radius}) out.number(number);
+  for (double number :
+       {curve.deviation, curve.pipe_radius, curve.bore_radius, curve.bar.width, curve.bar.height,
+        curve.bar.area, curve.bar.second_moments.x(), curve.bar.second_moments.y()})
+    out.number(number);
   write(out, curve.curve);
 }
 
@@ -24,7 +27,7 @@ ImportedCurve read_imported_curve(ByteReader& in) {
   const bool free = in.number<char>() != 0;
   const bool hidden = in.number<char>() != 0;
   const bool exact = in.number<char>() != 0;
-  std::array<double, 3> numbers{};
+  std::array<double, 8> numbers{};
   for (double& number : numbers) number = in.number<double>();
   return {.name = texts[0],
           .entity = texts[1],
@@ -37,6 +40,7 @@ ImportedCurve read_imported_curve(ByteReader& in) {
           .deviation = numbers[0],
           .pipe_radius = numbers[1],
           .bore_radius = numbers[2],
+          .bar = {numbers[3], numbers[4], numbers[5], {numbers[6], numbers[7]}},
           .curve = read_nurbs_curve(in)};
 }
 

@@ -8,12 +8,13 @@ namespace {
 void write(ByteWriter& out, const NamedCurve& curve) {
   out.text(curve.name);
   nurbeam::write(out, curve.curve);
-  out.text(curve.part);
+  for (const std::string& text : {curve.part, curve.layer, curve.colour}) out.text(text);
 }
 NamedCurve read_named_curve(ByteReader& in) {
   std::string name = in.text();
   NurbsCurve curve = read_nurbs_curve(in);
-  return {std::move(name), std::move(curve), in.text()};
+  std::string part = in.text(), layer = in.text();
+  return {std::move(name), std::move(curve), std::move(part), std::move(layer), in.text()};
 }
 
 void write(ByteWriter& out, const NamedPipe& pipe) {

@@ -26,13 +26,13 @@ std::size_t behind_digits(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// [+-] digits [. [digits] [E [+-] digits]]
+/// [+-] digits [. [digits] [E [+-] digits]]; the digits before the point may be missing, as some write it.
 bool is_number(std::string_view token) {
   std::size_t at = token.starts_with('+') || token.starts_with('-') ? 1 : 0;
   const std::size_t whole = behind_digits(token, at);
-  if (whole == at) return false;
-  if (whole == token.size()) return true;
+  if (whole == token.size()) return whole > at;
   if (token[whole] != '.') return false;
+  if (whole == at && behind_digits(token, whole + 1) == whole + 1) return false;
   at = behind_digits(token, whole + 1);
   if (at == token.size()) return true;
   if (token[at] != 'E') return false;
@@ -56,8 +56,14 @@ bool is_allowed(std::string_view token, char next) {
          (is_keyword && next == '(');
 }
 
+bool has_two_points(std::string_view token) {
+  const std::size_t first = token.find('.');
+  return token.find_first_not_of("+-.0123456789E") == std::string_view::npos &&
+         first != std::string_view::npos && token.find('.', first + 1) != std::string_view::npos;
+}
+
 /// The first token that must not be there; nothing where all may.
-std::optional<std::string> broken_token(std::string_view value) {
+std::optional<std::string> broken_token(std::string_view value, BrokenToken wanted) {
   for (std::size_t at = 0; at < value.size();) {
     const std::size_t behind = behind_quotation(value, at);
     if (behind > at || std::string_view("(), \t\r\n=").find(value[at]) != std::string_view::npos) {
@@ -68,10 +74,13 @@ std::optional<std::string> broken_token(std::string_view value) {
     while (end < value.size() &&
            (is_word(value[end]) || std::string_view("+-.#*$!").find(value[end]) != std::string_view::npos))
       ++end;
-    if (end == at) return std::string(1, value[at]);
+    if (end == at && wanted == BrokenToken::any) return std::string(1, value[at]);
+    if (end == at) ++end;
     const std::size_t next = value.find_first_not_of(" \t\r\n", end);
     const std::string_view token = value.substr(at, end - at);
-    if (!is_allowed(token, next == std::string_view::npos ? ' ' : value[next])) return std::string(token);
+    const bool is_wanted = wanted == BrokenToken::any || has_two_points(token);
+    if (is_wanted && !is_allowed(token, next == std::string_view::npos ? ' ' : value[next]))
+      return std::string(token);
     at = end;
   }
   return std::nullopt;
@@ -91,7 +100,17 @@ std::string label_of(std::string_view instance) {
 
 }  // namespace
 
-std::vector<BrokenInstance> remove_broken_instances(std::string& text) {
+bool may_have_broken_numbers(const std::string& text) {
+  for (std::size_t at = text.find('.'); at != std::string::npos;) {
+    const std::size_t next = text.find('.', at + 1);
+    if (next == std::string::npos) return false;
+    if (text.find_first_not_of("0123456789", at + 1) == next) return true;
+    at = next;
+  }
+  return false;
+}
+
+std::vector<BrokenInstance> remove_broken_instances(std::string& text, BrokenToken wanted) {
   std::vector<BrokenInstance> broken;
   const std::string given = std::move(text);
   const std::string_view all = given;
@@ -110,7 +129,7 @@ std::vector<BrokenInstance> remove_broken_instances(std::string& text) {
         start != std::string_view::npos && statement[start] == '#' && statement.ends_with(';');
     const std::string_view instance =
         is_instance ? statement.substr(start, statement.size() - start - 1) : "";
-    if (const auto token = broken_token(instance))
+    if (const auto token = broken_token(instance, wanted))
       broken.push_back({label_of(instance), *token});
     else
       text += statement;

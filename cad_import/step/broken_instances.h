@@ -11,8 +11,15 @@ struct BrokenInstance {
       token;  ///< what is neither number, reference, string, enumeration nor a keyword with parameters
 };
 
-/// Takes those instances of the data section out of the text that have such a token, as "0x10" for a number:
-/// OpenCASCADE cannot go on behind them. What refers to them is told of as of any that is not there.
-std::vector<BrokenInstance> remove_broken_instances(std::string& text);
+/// Which tokens are looked for: all that the syntax does not allow, as "0x10", behind which OpenCASCADE
+/// cannot go on; or only numbers with two points, as "1.2.3", of which it reads a part.
+enum class BrokenToken { any, number };
+
+/// Takes those instances of the data section out of the text that have such a token. What refers to them is
+/// told of as of any that is not there.
+std::vector<BrokenInstance> remove_broken_instances(std::string& text, BrokenToken wanted);
+
+/// Whether a number with two points may stand anywhere in the text, be it in a string.
+bool may_have_broken_numbers(const std::string& text);
 
 }  // namespace nurbeam

@@ -74,6 +74,27 @@ std::string step_encoded(std::string_view utf8) {
   return out.str();
 }
 
+std::string with_encoded_apostrophes(std::string text) {
+  constexpr std::string_view encoded = "\\X4\\00000027\\X0\\";
+  std::string out;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    if (!in_string && rest.starts_with("/*")) {
+      const std::size_t end = std::min(text.find("*/", i + 2), text.size());
+      out.append(text, i, end - i);
+      i = end - 1;
+    } else if (in_string && rest.starts_with("''")) {
+      out += encoded;
+      ++i;
+    } else {
+      in_string = in_string != (text[i] == '\'');
+      out += text[i];
+    }
+  }
+  return in_string ? text : out;
+}
+
 std::string step_string(std::string_view utf8) {
   std::string text;
   for (const char c : utf8)

@@ -15,4 +15,9 @@ std::string step_string(std::string_view utf8);
 /// decoded.
 std::string step_decoded(std::string_view text);
 
+/// The text of a STEP file in whose strings apostrophes stand in hexadecimal, not doubled: OpenCASCADE takes
+/// a doubled one before a comma or a bracket for the end of its string. A text that ends within a string
+/// stays as it is.
+std::string with_encoded_apostrophes(std::string text);
+
 }  // namespace nurbeam

@@ -1,5 +1,6 @@
 #include "cad_import/step/local_origin.h"
 
+#include <BRepBuilderAPI_Transform.hxx>
 #include <TopLoc_Location.hxx>
 #include <gp_Trsf.hxx>
 #include <gp_Vec.hxx>
@@ -39,6 +40,14 @@ TopoDS_Shape moved_back(const TopoDS_Shape& shape, const Eigen::Vector3d& point)
   const Eigen::Vector3d millimetres = point * millimetres_per_metre;
   move.SetTranslation(gp_Vec(millimetres.x(), millimetres.y(), millimetres.z()));
   return shape.Moved(TopLoc_Location(move));
+}
+
+TopoDS_Shape moved_in_itself(const TopoDS_Shape& shape) {
+  if (shape.Location().IsIdentity()) return shape;
+  constexpr bool with_geometry = true;
+  return BRepBuilderAPI_Transform(shape.Located(TopLoc_Location()), shape.Location().Transformation(),
+                                  with_geometry)
+      .Shape();
 }
 
 Eigen::Vector3d local_origin(const NamedSolid& solid) {

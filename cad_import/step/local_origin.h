@@ -17,6 +17,10 @@ NamedSolid moved_to_origin(NamedSolid solid, const Eigen::Vector3d& point);
 /// A shape that was made about this point [m], where it belongs.
 TopoDS_Shape moved_back(const TopoDS_Shape& shape, const Eigen::Vector3d& point);
 
+/// The shape without a location, its curves and surfaces moved instead. Readers that give shapes tolerances
+/// of their own see the digits that these lose far from the origin, but not those that a location loses.
+TopoDS_Shape moved_in_itself(const TopoDS_Shape& shape);
+
 /// local_origin() of its axis, or of one of its lines.
 Eigen::Vector3d local_origin(const NamedSolid& solid);
 

@@ -9,8 +9,9 @@
 namespace nurbeam {
 
 std::optional<Eigen::Vector3d> direction_of(const Handle(StepGeom_Direction) & direction) {
-  const Handle(Geom_Direction) known =
-      direction.IsNull() ? Handle(Geom_Direction)() : StepToGeom::MakeDirection(direction);
+  // One whose values are lost has no ratios, which OpenCASCADE does not expect.
+  if (direction.IsNull() || direction->DirectionRatios().IsNull()) return std::nullopt;
+  const Handle(Geom_Direction) known = StepToGeom::MakeDirection(direction);
   if (known.IsNull()) return std::nullopt;
   return Eigen::Vector3d(known->X(), known->Y(), known->Z());
 }

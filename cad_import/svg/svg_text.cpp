@@ -81,7 +81,8 @@ class SvgPaths {
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
       add_piece(named.curve.bezier_points(knots.find_span(breaks[i])));
     const std::string title = named.name.empty() ? "" : "<title>" + escaped(named.name) + "</title>";
-    text_ += "<path d=\"" + path_ + "\">" + title + "</path>\n";
+    const std::string stroke = is_colour(named.colour) ? " stroke=\"" + named.colour + "\"" : "";
+    text_ += "<path d=\"" + path_ + "\"" + stroke + ">" + title + "</path>\n";
   }
   const std::string& text() const { return text_; }
   const Eigen::AlignedBox2d& box() const { return box_; }

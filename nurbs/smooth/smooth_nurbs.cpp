@@ -7,6 +7,7 @@
 #include "nurbs/smooth/joint_knots.h"
 #include "nurbs/smooth/level_weights.h"
 #include "nurbs/smooth/linear_factors.h"
+#include "nurbs/smooth/lowest_pieces.h"
 #include "nurbs/smooth/rejoin.h"
 #include "nurbs/smooth/straight_links.h"
 #include "nurbs/smooth/whole_conic.h"
@@ -16,28 +17,6 @@ namespace nurbeam {
 namespace smooth {
 
 namespace {
-
-/// The curve of degree - 1 nearest to this one (the one it is, if there is one).
-Points reduced(const Points& points) {
-  if (points.cols() == 3) return (Points(4, 2) << points.col(0), points.col(2)).finished();
-  const Eigen::Vector4d middle = 0.25 * (3 * (points.col(1) + points.col(2)) - points.col(0) - points.col(3));
-  return (Points(4, 3) << points.col(0), middle, points.col(3)).finished();
-}
-
-/// The pieces written with the lowest degree that they all have.
-Pieces of_lowest_degree(Pieces pieces, double tolerance) {
-  while (pieces.front().degree() > 1) {
-    Pieces lower = pieces;
-    for (Piece& piece : lower) {
-      const Points points = reduced(piece.points);
-      piece.deviation += distance_bound(piece.points, elevated(points, piece.degree()));
-      if (!(piece.deviation <= tolerance)) return pieces;
-      piece.points = points;
-    }
-    pieces = std::move(lower);
-  }
-  return pieces;
-}
 
 double total_length(const Pieces& pieces) {
   return std::accumulate(
@@ -129,12 +108,6 @@ SmoothNurbs in_own_parameter(const Pieces& lowest, double start, double toleranc
   return with_fewest_knots(changed(pieces, 0, *changes), start, tolerance);
 }
 
-NurbsCurve shifted(const NurbsCurve& curve, const Eigen::Vector3d& by) {
-  Points points = curve.control_points();
-  points.topRows<3>() += by * curve.control_points().row(3);
-  return {curve.knots(), std::move(points)};
-}
-
 }  // namespace
 
 }  // namespace smooth
@@ -143,19 +116,11 @@ SmoothNurbs smooth_nurbs(const BezierPath& path, CurveParameter parameter, doubl
   using namespace smooth;
   if (path.segments.empty())
     throw std::invalid_argument("a path without segments is no curve; give at least one segment");
-  // Measured from the start, so that a curve far from the origin keeps its digits.
-  const Eigen::Vector3d origin = path.segments.front().control_point(0);
-  Pieces pieces;
-  for (std::size_t j = 0; j < path.segments.size(); ++j) {
-    Points points = path.segments[j].points() / path.segments[j].weight(0);
-    points.topRows<3>() -= (origin * points.row(3)).eval();
-    pieces.push_back({std::move(points), path.breaks[j + 1] - path.breaks[j]});
-  }
-  const Pieces lowest = of_lowest_degree(std::move(pieces), 0.25 * tolerance);
+  const Pieces lowest = lowest_pieces(path, 0.25 * tolerance);
   SmoothNurbs result = parameter == CurveParameter::free
                            ? smoothest(lowest, path.breaks.front(), tolerance)
                            : in_own_parameter(lowest, path.breaks.front(), tolerance);
-  result.curve = shifted(result.curve, origin);
+  result.curve = moved_from_start(result.curve, path);
   return result;
 }
 

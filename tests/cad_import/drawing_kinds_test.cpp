@@ -111,6 +111,72 @@ TEST(DrawnSplines, OfAHelixAreItsFirstClass) {
   EXPECT_LE((report.curves[0].curve.point(0.5) - Eigen::Vector3d(0.75, 0.75, 0)).norm(), 1e-15);
 }
 
+// -------------------------------------------------------------------------------------------------------
+// helices without a spline
+
+/// About the axis through (1, 2, 3) along x, from (1, 2, 3 + radius).
+std::string helix(double radius, double end_radius, double turns, double height, bool turns_right = true) {
+  char numbers[120];
+  std::snprintf(numbers, sizeof numbers, " 40 %.17g 41 %.17g 42 %.17g 290 %d", end_radius, turns, height,
+                turns_right ? 1 : 0);
+  return "0 HELIX 8 spring 100 AcDbEntity 100 AcDbSpline 70 8 71 3 100 AcDbHelix 90 29 91 63" +
+         place(10, {1, 2, 3}) + place(11, {1, 2, 3 + radius}) + place(12, {2, 0, 0}) + numbers;
+}
+
+TEST(DrawnHelices, LieAtTheirRadiusAndRiseEvenly) {
+  const ImportReport report = import_drawing(drawing_of(helix(20, 20, 2.5, 15)));
+  ASSERT_EQ(report.curves.size(), 1U);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_TRUE(says(report.diagnostics[0], "helix without a spline"));
+  EXPECT_FALSE(report.curves[0].exact);
+  const double turn = std::hypot(2 * pi * 20, 15);
+  EXPECT_LE(report.curves[0].deviation, 1e-7 * turn);
+  const NurbsCurve& curve = report.curves[0].curve;
+  EXPECT_NEAR(length(curve), 2.5 * turn, 1e-6 * turn);
+  EXPECT_LE((start_of(curve) - Eigen::Vector3d(1, 2, 23)).norm(), 1e-12);
+  EXPECT_LE((end_of(curve) - Eigen::Vector3d(1 + 2.5 * 15, 2, -17)).norm(), 1e-12);
+  const double first = curve.knots().start(), last = curve.knots().end();
+  for (int i = 0; i <= 1000; ++i) {
+    const Eigen::Vector3d at = curve.point(first + (last - first) * i / 1000) - Eigen::Vector3d(1, 2, 3);
+    EXPECT_NEAR(std::hypot(at.y(), at.z()), 20, 1e-7 * turn);
+    const double angle = 2 * pi * at.x() / 15;  // by the right hand about x, from z towards -y
+    EXPECT_NEAR(at.y(), -20 * std::sin(angle), 1e-6 * turn);
+  }
+}
+
+/// The root of (2 pi turns r)^2 and what it goes outwards and up, squared, integrated by r.
+double length_of_cone(double start, double end, double turns, double height) {
+  const double around = 2 * pi * turns, along = std::hypot(end - start, turns * height);
+  const auto primitive = [&](double r) {
+    const double x = around * r;
+    return 0.5 * (x * std::hypot(x, along) + along * along * std::asinh(x / along)) / around;
+  };
+  return (primitive(end) - primitive(start)) / (end - start);
+}
+
+TEST(DrawnHelices, TurnLeftOrMakeConesWhereTheySaySo) {
+  const ImportReport left = import_drawing(drawing_of(helix(20, 20, 0.25, 40, false)));
+  EXPECT_LE((end_of(left.curves.at(0).curve) - Eigen::Vector3d(11, 22, 3)).norm(), 1e-12);
+  const ImportReport cone = import_drawing(drawing_of(helix(20, 5, 3, 10)));
+  EXPECT_LE((end_of(cone.curves.at(0).curve) - Eigen::Vector3d(31, 2, 8)).norm(), 1e-12);
+  EXPECT_NEAR(length(cone.curves[0].curve), length_of_cone(20, 5, 3, 10), 1e-5);
+  const ImportReport from_a_point = import_drawing(drawing_of(helix(0, 5, 3, 10)));
+  EXPECT_NEAR(length(from_a_point.curves.at(0).curve), length_of_cone(0, 5, 3, 10), 1e-5);
+}
+
+TEST(DrawnHelices, WithoutTheirNumbersAreNamed) {
+  for (const auto& [entity, words] :
+       {std::pair<std::string, std::string>{helix(20, 20, 0, 15), "0 turns"},
+        {helix(0, 0, 2, 15), "radius is 0"},
+        {helix(20, -20, 2, 15), "radius is -20"},
+        {"0 HELIX 100 AcDbSpline 70 8 100 AcDbHelix 10 0 20 0 30 0 11 1 21 0 31 0", "a number of turns"}}) {
+    const ImportReport report = import_drawing(drawing_of(entity + " 0 LINE 10 0 20 0 11 1 21 0"));
+    EXPECT_EQ(report.curves.size(), 1U);
+    ASSERT_EQ(report.diagnostics.size(), 1U);
+    EXPECT_TRUE(says(report.diagnostics[0], words)) << report.diagnostics[0].message;
+  }
+}
+
 TEST(DrawnSplines, OfFitPointsAreTheCubicThroughThemByChords) {
   // Along a line they are even; between them the cubic without curvature at its ends.
   const ImportReport straight =

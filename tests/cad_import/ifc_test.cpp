@@ -8,40 +8,12 @@
 #include "cad_import/import_curves.h"
 #include "nurbs/arc_length.h"
 #include "tests/cad_import/curve_ends.h"
-#include "tests/cad_import/scratch_directory.h"
+#include "tests/cad_import/ifc_text_of.h"
 
 namespace nurbeam::ifc {
 namespace {
 
 using std::numbers::pi;
-
-ImportReport imported(const std::string& text) {
-  const ScratchDirectory scratch;
-  return import_curves(scratch.file("model.ifc", text));
-}
-
-/// A file with a project in millimetres, and these instances, whose numbers begin at 100.
-std::string file_of(const std::string& instances, const std::string& prefix = ".MILLI.") {
-  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition'),'2;1');\n"
-         "FILE_NAME('case','2026-01-01T00:00:00',(''),(''),'','','');\nFILE_SCHEMA(('IFC4X3_ADD2'));\nENDSEC;\n"
-         "DATA;\n#1=IFCPROJECT('0',$,'case',$,$,$,$,(#5),#2);\n#2=IFCUNITASSIGNMENT((#3,#4));\n"
-         "#3=IFCSIUNIT(*,.LENGTHUNIT.," +
-         prefix +
-         ",.METRE.);\n#4=IFCSIUNIT(*,.PLANEANGLEUNIT.,$,.RADIAN.);\n"
-         "#5=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-05,#6,$);\n#6=IFCAXIS2PLACEMENT3D(#7,$,$);\n"
-         "#7=IFCCARTESIANPOINT((0.,0.,0.));\n" +
-         instances + "ENDSEC;\nEND-ISO-10303-21;\n";
-}
-
-/// The product #90 of this name, moved to (1000, 0, 0) and turned by 90 degrees about z, whose shape is #100.
-std::string product(const std::string& keyword = "IFCREINFORCINGBAR", const std::string& name = "bar",
-                    const std::string& identifier = "Body") {
-  return "#90=" + keyword + "('1',$,'" + name +
-         "',$,$,#91,#94,$);\n#91=IFCLOCALPLACEMENT($,#92);\n"
-         "#92=IFCAXIS2PLACEMENT3D(#93,$,#96);\n#93=IFCCARTESIANPOINT((1000.,0.,0.));\n"
-         "#94=IFCPRODUCTDEFINITIONSHAPE($,$,(#95));\n#95=IFCSHAPEREPRESENTATION(#5,'" +
-         identifier + "','AdvancedSweptSolid',(#100));\n#96=IFCDIRECTION((0.,1.,0.));\n";
-}
 
 Eigen::Vector3d millimetres(const Eigen::Vector3d& metres) { return 1e3 * metres; }
 
@@ -219,6 +191,30 @@ TEST(Ifc, WhatIsNotReadIsNamedOrCounted) {
   EXPECT_NE(report.diagnostics[0].message.find("IFCPCURVE"), std::string::npos);
   EXPECT_NE(report.diagnostics[1].message.find("a circle of references"), std::string::npos);
   EXPECT_NE(report.diagnostics[2].message.find("IFCFACETEDBREP 1"), std::string::npos);
+}
+
+TEST(Ifc, ItemsThatTheFileDoesNotHaveAreNamed) {
+  const ImportReport report =
+      imported(file_of(product() + "#100=IFCGEOMETRICSET((#101,#999));\n#101=IFCPOLYLINE((#7,#105));\n"
+                                   "#105=IFCCARTESIANPOINT((9.,0.,0.));\n"));
+  ASSERT_EQ(report.curves.size(), 1U);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_EQ(report.diagnostics[0].severity, Severity::warning);
+  EXPECT_NE(report.diagnostics[0].where.find("#999"), std::string::npos) << report.diagnostics[0].where;
+  EXPECT_NE(report.diagnostics[0].message.find("the file does not have it"), std::string::npos);
+}
+
+TEST(Ifc, KnotsThatAreAlmostOneAreNamed) {
+  const ImportReport report = imported(
+      file_of(product() +
+              "#100=IFCGEOMETRICSET((#101,#102));\n#101=IFCPOLYLINE((#7,#105));\n"
+              "#102=IFCBSPLINECURVEWITHKNOTS(2,(#7,#105,#106),.UNSPECIFIED.,.F.,.F.,(3,3),(0.,1.E-320),"
+              ".UNSPECIFIED.);\n"
+              "#105=IFCCARTESIANPOINT((9.,0.,0.));\n#106=IFCCARTESIANPOINT((9.,5.,0.));\n"));
+  EXPECT_EQ(report.curves.size(), 1U);
+  ASSERT_EQ(report.diagnostics.size(), 1U);
+  EXPECT_NE(report.diagnostics[0].message.find("knots must be equal, or at least"), std::string::npos)
+      << report.diagnostics[0].message;
 }
 
 TEST(Ifc, CurvesOfNoProductAreReadWithAWarning) {

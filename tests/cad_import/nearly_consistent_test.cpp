@@ -197,8 +197,9 @@ std::string spline_file(const std::string& knots) {
 TEST(NearlyConsistent, KnotsThatDifferInTheirLastDigitsAreOne) {
   const double whole = length(imported(spline_file("0.,0.,0.,0.,1.,2.,3.,3.,3.,3.")).curves.at(0).curve);
   EXPECT_NEAR(whole, 0.1409586445, 1e-10);
-  for (const std::string knots : {"0.,0.,0.,0.,1.,2.,3.0000001,3.,3.,3.", "0.,0.,0.,1.E-7,1.,2.,3.,3.,3.,3.",
-                                  "0.,0.,0.,0.,1.,2.,2.9999999,3.,3.,3."}) {
+  for (const std::string knots :
+       {"0.,0.,0.,0.,1.,2.,3.0000001,3.,3.,3.", "0.,0.,0.,1.E-7,1.,2.,3.,3.,3.,3.",
+        "0.,0.,0.,0.,1.,2.,2.9999999,3.,3.,3.", "1.E-11,0.,0.,0.,1.,2.,3.,3.,3.,2.9999999999"}) {
     const ImportReport report = imported(spline_file(knots));
     ASSERT_EQ(report.curves.size(), 1U) << knots;
     EXPECT_NEAR(length(report.curves[0].curve), whole, 1e-12) << knots;

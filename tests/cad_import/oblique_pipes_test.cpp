@@ -11,11 +11,13 @@
 #include <BRepGProp.hxx>
 #include <BRepOffsetAPI_MakePipeShell.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <STEPControl_Reader.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <algorithm>
 #include <gp_Circ.hxx>
@@ -152,6 +154,19 @@ TEST(ObliquePipes, AFrameWithABraceIsOneOfBeams) {
       1);
 }
 
+// On a ball, which is neither a plane nor a pipe.
+TEST(ObliquePipes, ThatEndOnSomethingElseEndMidwayWithARemark) {
+  const TopoDS_Shape shape =
+      without(rod({0, 0, 0}, {100, 0, 0}, 10), BRepPrimAPI_MakeSphere(gp_Pnt(110, 8, 0), 30).Shape());
+  const CentreLines found = centre_lines(shape, 1e-7);
+  ASSERT_EQ(found.lines.size(), 1U);
+  ASSERT_EQ(found.remarks.size(), 1U);
+  EXPECT_NE(found.remarks[0].find("the pipe of radius 0.01 m is cut neither by a plane"), std::string::npos)
+      << found.remarks[0];
+  EXPECT_NE(found.remarks[0].find("(0.08"), std::string::npos) << found.remarks[0];
+  EXPECT_TRUE(centre_lines(rod({0, 0, 0}, {100, 0, 0}, 10), 1e-7).remarks.empty());
+}
+
 /// As OpenCASCADE's own readers give it.
 TopoDS_Shape shape_of(const std::filesystem::path& file) {
   if (file.extension() == ".brep") {
@@ -178,15 +193,47 @@ TEST(FarFromTheOrigin, CurvesAndSolidsAreWrittenAndReadAgain) {
   const ImportReport back = import_curves(file);
   ASSERT_EQ(back.curves.size(), 1U);
   EXPECT_NEAR(length(back.curves[0].curve), length(curve), 1e-8);
-  const std::filesystem::path solid = scratch.path() / "solid.brep";
-  const std::vector<Diagnostic> problems =
-      export_solids(solid, std::vector<NamedPipe>{{{"far", curve}, 0.5}}, LengthUnit::millimetre);
-  ASSERT_TRUE(problems.empty()) << problems[0].message;
-  const TopoDS_Shape shape = shape_of(solid);
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
-  const double volume = pi * 0.25 * length(curve);  // of Pappus
-  EXPECT_NEAR(properties.Mass() * 1e-9, volume, 1e-5 * volume);
+  for (const char* name : {"solid.brep", "solid.step"}) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path solid = scratch.path() / name;
+    const std::vector<Diagnostic> problems =
+        export_solids(solid, std::vector<NamedPipe>{{{"far", curve}, 0.5}}, LengthUnit::millimetre);
+    ASSERT_TRUE(problems.empty()) << problems[0].message;
+    const TopoDS_Shape shape = shape_of(solid);
+    ASSERT_FALSE(shape.IsNull());
+    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(shape, properties);
+    const double volume = pi * 0.25 * length(curve);  // of Pappus
+    EXPECT_NEAR(properties.Mass() * 1e-9, volume, 1e-5 * volume);
+    const gp_Pnt centre = properties.CentreOfMass();
+    EXPECT_LE(
+        Eigen::Vector3d(centre.X() * 1e-3 - 500025, centre.Y() * 1e-3 - 2000025, centre.Z() * 1e-3).norm(),
+        20);
+  }
+}
+
+// Whose curves and surfaces lie where they belong, with as many digits as readers find valid.
+TEST(FarFromTheOrigin, SolidsOfStepAreValidWhereTheyAre) {
+  Eigen::Matrix3Xd points(3, 6);
+  points << 500000, 500010, 500030, 500060, 500080, 500100, 2000000, 2000030, 2000040, 2000020, 1999990,
+      1999980, 0, 0, 10, 10, 0, 0;
+  const NurbsCurve curve =
+      make_nurbs_curve(KnotVector(3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3}), points, Eigen::VectorXd::Ones(6));
+  const ScratchDirectory scratch;
+  const std::filesystem::path file = scratch.path() / "solid.step";
+  for (const double radius : {0.02, 0.1, 0.5}) {
+    ASSERT_TRUE(export_solids(file, std::vector<NamedPipe>{{{"far", curve}, radius}}, LengthUnit::millimetre)
+                    .empty());
+    const TopoDS_Shape shape = shape_of(file);
+    ASSERT_FALSE(shape.IsNull());
+    EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid()) << radius;
+    EXPECT_TRUE(TopExp_Explorer(shape, TopAbs_SOLID).Current().Location().IsIdentity()) << radius;
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(shape, properties);
+    const double volume = pi * radius * radius * length(curve);  // of Pappus
+    EXPECT_NEAR(properties.Mass() * 1e-9, volume, 1e-5 * volume) << radius;
+  }
 }
 
 }  // namespace

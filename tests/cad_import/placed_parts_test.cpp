@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -172,6 +173,17 @@ TEST(PlacedParts, ByAnOperatorWrittenAsAComplexInstanceStandThereOrAreNamed) {
       << unknown.diagnostics.front().where;
   EXPECT_NE(unknown.diagnostics.front().message.find("as if it were not placed"), std::string::npos)
       << unknown.diagnostics.front().message;
+}
+
+TEST(PlacedParts, BetweenWhatIsNoPlacementAreNamed) {
+  const std::string text = assembly(between(places[1], places[2]), millimetres);
+  const ImportReport report =
+      import_text(with(text, "#310 = AXIS2_PLACEMENT_3D", "#310 = AXIS2_PLACEMENT3D"));
+  ASSERT_EQ(report.curves.size(), 1U);
+  EXPECT_TRUE(std::any_of(report.diagnostics.begin(), report.diagnostics.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::warning && d.where.find("#63") != std::string::npos &&
+           d.message.find("not both AXIS2_PLACEMENT_3D") != std::string::npos;
+  })) << (report.diagnostics.empty() ? "nothing is told" : report.diagnostics.front().message);
 }
 
 TEST(PlacedParts, DrawnByMappedItemsStandBetweenTheirPlacementsToo) {

@@ -227,6 +227,24 @@ TEST(ReadDxf, LayersColoursAndHiddenEntitiesAreKept) {
   EXPECT_TRUE(report.curves[1].hidden);
 }
 
+// Of AutoCAD's table.
+TEST(ReadDxf, ColoursByNumberAreThoseThatAutoCadShows) {
+  for (const auto& [number, colour] : std::vector<std::pair<int, std::string>>{{8, "#808080"},
+                                                                               {11, "#ff7f7f"},
+                                                                               {13, "#a55252"},
+                                                                               {20, "#ff3f00"},
+                                                                               {50, "#ffff00"},
+                                                                               {94, "#007f00"},
+                                                                               {170, "#0000ff"},
+                                                                               {211, "#ff7fff"},
+                                                                               {248, "#260009"},
+                                                                               {255, "#ffffff"},
+                                                                               {256, ""}})
+    EXPECT_EQ(import_dxf(dxf_of("0 LINE 8 0 62 " + std::to_string(number) + " 11 1")).curves.at(0).colour,
+              colour)
+        << number;
+}
+
 TEST(ReadDxf, LettersThatAreWrittenByTheirNumbersAreRead) {
   const auto layer_of = [](const std::string& layer) {
     return import_dxf(dxf_of("0 LINE 8 " + layer + " 10 0 11 1")).curves.at(0).layer;

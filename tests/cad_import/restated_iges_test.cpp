@@ -411,19 +411,47 @@ TEST(RestatedIges, OffsetCurvesThatAreNotReadAreNamed) {
 }
 
 // OpenCASCADE makes one curve of it, without a control point.
-TEST(RestatedIges, SplinesInTwoPiecesAreNamed) {
-  const auto line_of = [](const std::string& third) {
-    return import_text(
-        iges_text_of({{126, "126,3,1,0,0,1,0,0,0,1,1,2,2,1,1,1,1,0,0,0,3,2,0," + third + ",7,7,0,0,2;"}}));
+TEST(RestatedIges, SplinesWithGapsArePiecesByThemselves) {
+  const auto line_of = [](const std::string& third, int matrix = 0) {
+    return import_text(iges_text_of(
+        {{.type = 126,
+          .parameters = "126,3,1,0,0,1,0,0,0,1,1,2,2,1,1,1,1,0,0,0,3,2,0," + third + ",7,7,0,0,2;",
+          .matrix = matrix},
+         {.type = 124, .parameters = "124,1,0,0,0,0,1,0,0,0,0,1,50;"}}));
   };
-  const ImportReport apart = line_of("4,0,0"), together = line_of("3,2,0");
-  EXPECT_TRUE(apart.curves.empty());
-  ASSERT_FALSE(apart.diagnostics.empty());
-  EXPECT_NE(apart.diagnostics[0].message.find("its knot 1 stands 2 times; at most 1 are allowed"),
-            std::string::npos)
+  const ImportReport apart = line_of("4,0,0"), together = line_of("3,2,0"), moved = line_of("4,0,0", 3);
+  ASSERT_EQ(apart.curves.size(), 2U);
+  EXPECT_NEAR(length(apart.curves[0].curve), 1e-3 * std::hypot(3, 2), 1e-12);
+  EXPECT_NEAR(length(apart.curves[1].curve), 1e-3 * std::hypot(3, 7), 1e-12);
+  ASSERT_EQ(apart.diagnostics.size(), 1U);
+  EXPECT_NE(apart.diagnostics[0].where.find("D1 BSplineCurve"), std::string::npos)
+      << apart.diagnostics[0].where;
+  EXPECT_NE(apart.diagnostics[0].message.find("its knot 1 stands more often than its degree"),
+            std::string::npos);
+  EXPECT_NE(apart.diagnostics[0].message.find("2.236067977 apart"), std::string::npos)
       << apart.diagnostics[0].message;
   ASSERT_EQ(together.curves.size(), 1U);
   EXPECT_NEAR(length(together.curves[0].curve), 1e-3 * (std::hypot(3, 2) + std::hypot(4, 5)), 1e-12);
+  ASSERT_EQ(moved.curves.size(), 2U);
+  EXPECT_NEAR(moved.curves[1].curve.point(moved.curves[1].curve.knots().start()).z(), 0.05, 1e-12);
+}
+
+// Its range takes half of each piece; the parts of a composite curve that
+// holds it stand by themselves.
+TEST(RestatedIges, PiecesOfSplinesWithGapsKeepTheirRangeAndLeaveTheirCompositeCurve) {
+  const ImportReport report = import_text(
+      iges_text_of({{.type = 102, .parameters = "102,2,3,5;"},
+                    {.type = 110, .parameters = "110,-5,0,0,0,0,0;", .status = dependent},
+                    {.type = 126,
+                     .parameters = "126,3,1,0,0,1,0,0,0,2,2,4,4,1,1,1,1,0,0,0,4,0,0,6,0,0,6,8,0,1,3;",
+                     .status = dependent}}));
+  ASSERT_EQ(report.curves.size(), 3U);
+  std::vector<double> lengths;
+  for (const ImportedCurve& curve : report.curves) lengths.push_back(1e3 * length(curve.curve));
+  std::sort(lengths.begin(), lengths.end());
+  EXPECT_NEAR(lengths[0], 2, 1e-9);
+  EXPECT_NEAR(lengths[1], 4, 1e-9);
+  EXPECT_NEAR(lengths[2], 5, 1e-9);
 }
 
 }  // namespace

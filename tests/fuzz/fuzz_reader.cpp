@@ -4,11 +4,12 @@
 //
 //   fuzz_reader step|iges|dxf|binary|ifc|brep|json|packed [--seconds N] [--cases N] [--seed N] [--from
 //   DIRECTORY]
-//               [--counts FILE] [--keep DIRECTORY]
+//               [--counts FILE] [--keep DIRECTORY] [--keep-fewer DIRECTORY]
 //
 // Without --seed it is the date, 20240521. --from names drawings to mutate besides; --counts adds up the
-// outcomes of many runs in a file; --keep keeps each input that crashed the reader or ran out of time. Exit
-// code 1 when a case was not survived.
+// outcomes of many runs in a file; --keep keeps each input that crashed the reader or ran out of time,
+// --keep-fewer each that gave fewer curves than its source and no more diagnostics. Exit code 1 when a case
+// was not survived.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,15 +27,17 @@
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <new>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 
-#include "cad_import/files/cad_format.h"
 #include "cad_import/import_curves.h"
 #include "cad_import/program/read_file.h"
+#include "tests/fuzz/corpus_text.h"
 #include "tests/fuzz/mutation.h"
+#include "tests/fuzz/shared_outcomes.h"
 #include "tests/fuzz/warm_reader.h"
 #include "tests/support/places.h"
 
@@ -46,7 +49,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds time_limit{2};
 constexpr std::size_t memory_limit = std::size_t{2} << 30;
-constexpr std::uint64_t cases_of_a_child = 50;
+constexpr std::uint64_t cases_of_a_child = 50, text_cases_of_a_child = 1000;
 constexpr std::uint64_t cases_between_canaries = 2000;
 
 struct Options {
@@ -54,15 +57,10 @@ struct Options {
   double seconds = 1e9;
   std::uint64_t cases = ~std::uint64_t{0};
   std::uint64_t seed = 0;
-  std::string from, counts, keep;
+  std::string from, counts, keep, keep_fewer;
 };
 
 using Counts = std::map<std::string, std::uint64_t>;
-
-struct CorpusText {
-  std::string name, content;
-  std::size_t curves;
-};
 
 std::uint64_t today() {
   const std::time_t now = std::time(nullptr);
@@ -92,76 +90,18 @@ Options read_arguments(int count, char** arguments) {
       options.counts = value;
     else if (key == "--keep")
       options.keep = value;
+    else if (key == "--keep-fewer")
+      options.keep_fewer = value;
     else
       throw std::invalid_argument("unknown option '" + key + "'");
   }
   return options;
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string format_name(const std::string& content) {
-  if (content.starts_with("AutoCAD Binary DXF")) return "binary";
-  if (content.starts_with("PK") || content.starts_with("\x1F\x8B")) return "packed";
-  const std::optional<CadFormat> format = format_of(content);
-  if (!format) return "";
-  switch (*format) {
-    case CadFormat::step:
-      return "step";
-    case CadFormat::iges:
-      return "iges";
-    case CadFormat::dxf:
-      return "dxf";
-    case CadFormat::brep:
-      return "brep";
-    case CadFormat::ifc:
-      return "ifc";
-    case CadFormat::json:
-      return "json";
-    case CadFormat::svg:
-      return "";
-  }
-  return "";
-}
-
-// The files of the format that can be read, with the curves that each holds, the smallest first.
-std::vector<CorpusText> corpus_of(const Options& options) {
-  const fs::path tests = test::source_directory() / "tests";
-  std::vector<fs::path> directories{tests / "corpus", tests / "fuzz/seeds"};
-  if (!options.from.empty()) directories.emplace_back(options.from);
-  std::vector<CorpusText> corpus;
-  for (const fs::path& directory : directories)
-    for (const auto& entry : fs::directory_iterator(directory)) {
-      if (!entry.is_regular_file()) continue;
-      const std::string content = content_of(entry.path());
-      if (format_name(content) != options.format) continue;
-      const ImportReport report = import_curves(entry.path());
-      if (report.ok()) corpus.push_back({entry.path(), content, report.curves.size()});
-    }
-  std::sort(corpus.begin(), corpus.end(), [](const CorpusText& a, const CorpusText& b) {
-    return std::pair(a.content.size(), a.name) < std::pair(b.content.size(), b.name);
-  });
-  if (corpus.empty()) throw std::runtime_error("there is no file of this format");
-  return corpus;
-}
-
 // Loads what OpenCASCADE sets up once into this process, so that the children need not.
 void warm_up(const CorpusText& text) {
   read_file(text.name, 1e-7);
   for (int number : {SIGSEGV, SIGFPE, SIGBUS, SIGILL}) std::signal(number, SIG_DFL);
-}
-
-// A small file four times as often as one of four times its size: a case should cost little.
-const CorpusText& random_text(const std::vector<CorpusText>& corpus, std::mt19937_64& random) {
-  std::vector<double> sums;
-  for (const CorpusText& text : corpus)
-    sums.push_back((sums.empty() ? 0 : sums.back()) + 1 / std::max(3000.0, double(text.content.size())));
-  const double at = sums.back() * (static_cast<double>(random() >> 11) * 0x1p-53);
-  const auto found = std::upper_bound(sums.begin(), sums.end(), at);
-  return corpus[std::min<std::size_t>(found - sums.begin(), corpus.size() - 1)];
 }
 
 std::string outcome_of(const ImportReport& report) {
@@ -238,7 +178,7 @@ class Scratch {
 class Fuzzer {
  public:
   explicit Fuzzer(const Options& options)
-      : options_(options), random_(options.seed), corpus_(corpus_of(options)) {
+      : options_(options), random_(options.seed), corpus_(corpus_of(options.format, options.from)) {
     for (const CorpusText& text : corpus_) contents_.push_back(text.content);
     // Assemblies find their parts beside them.
     for (const auto& seed : fs::directory_iterator(test::source_directory() / "tests/fuzz/seeds"))
@@ -255,8 +195,12 @@ class Fuzzer {
     const long resident = resident_kilobytes();
     std::uint64_t done = 0;
     while (done < options_.cases && elapsed() < options_.seconds) {
-      const std::uint64_t count = std::min(options_.cases - done, cases_of_a_child);
-      run_cases(count);
+      const std::uint64_t count =
+          std::min(options_.cases - done, is_own_text() ? text_cases_of_a_child : cases_of_a_child);
+      if (is_own_text())
+        run_text_cases(count);
+      else
+        run_cases(count);
       done += count;
       if (done % cases_between_canaries == 0) {
         check_canary();
@@ -275,17 +219,77 @@ class Fuzzer {
 
  private:
   struct Case {
-    std::string source, content, file;
+    const CorpusText* source;
+    std::string content, file;
     std::uint64_t seed;
   };
 
-  Case next_case(std::size_t number) {
-    const std::uint64_t seed = random_();
+  /// Whether readers of our own read the format, without OpenCASCADE.
+  bool is_own_text() const {
+    return options_.format == "dxf" || options_.format == "binary" || options_.format == "ifc" ||
+           options_.format == "json";
+  }
+
+  Case case_of(std::uint64_t seed) const {
     std::mt19937_64 random(seed);
     const CorpusText& source = random_text(corpus_, random);
-    std::string content = mutated(source.content, contents_, random);
-    const fs::path file = scratch_.file("case_" + std::to_string(number) + ".cad", content);
-    return {source.name, std::move(content), file, seed};
+    return {&source, mutated(source.content, contents_, random), "case.cad", seed};
+  }
+
+  Case next_case(std::size_t number) {
+    Case next = case_of(random_());
+    next.file = scratch_.file("case_" + std::to_string(number) + ".cad", next.content);
+    return next;
+  }
+
+  /// All in one child, without files, as long as none ends it. What they come to stands in shared memory.
+  void run_text_cases(std::size_t count) {
+    std::vector<std::uint64_t> seeds;
+    for (std::size_t i = 0; i < count; ++i) seeds.push_back(random_());
+    const SharedOutcomes shared;
+    while (shared->done < count) {
+      const Clock::time_point begin = Clock::now();
+      const std::string ended = end_of_child([&] { read_text_cases(seeds, *shared); });
+      slowest_ = std::max(slowest_, std::chrono::duration<double>(Clock::now() - begin).count());
+      if (shared->done == count) break;
+      const Case guilty = case_of(seeds[shared->done++]);
+      ++counts_[ended];
+      if (!options_.keep.empty()) keep(options_.keep, guilty.content, ended, guilty.seed);
+      fail(guilty.source->name + ", case " + std::to_string(guilty.seed) + ": " + ended);
+    }
+    for (std::size_t i = 0; i < outcomes.size(); ++i)
+      if (shared->counts[i] > 0) counts_[outcomes[i]] += shared->counts[i];
+    failures_ += static_cast<int>(shared->violations);
+  }
+
+  void read_text_cases(const std::vector<std::uint64_t>& seeds, Outcomes& shared) {
+    const rlimit memory{memory_limit, memory_limit}, none{0, 0};
+    setrlimit(RLIMIT_AS, &memory);
+    setrlimit(RLIMIT_CORE, &none);
+    for (; shared.done < seeds.size(); ++shared.done) {
+      limit_processor_time(time_limit);
+      const Case next = case_of(seeds[shared.done]);
+      try {
+        const ImportReport report = read_content(next.file, next.content, 1e-7);
+        judge_text(report, next, shared);
+      } catch (const std::bad_alloc&) {
+        ++shared.counts[2];
+        if (!options_.keep.empty()) keep(options_.keep, next.content, outcomes[2], next.seed);
+      }
+    }
+  }
+
+  void judge_text(const ImportReport& report, const Case& of, Outcomes& shared) const {
+    ++shared.counts[report.ok() ? 0 : 1];
+    if (is_fewer_unsaid(report, *of.source)) {
+      ++shared.counts[3];
+      if (!options_.keep_fewer.empty()) keep(options_.keep_fewer, of.content, "fewer", of.seed);
+    }
+    const std::string wrong = violation(report, of.file);
+    if (wrong.empty()) return;
+    ++shared.violations;
+    std::cout << "NOT SURVIVED: " << of.source->name << ", case " << of.seed << ": " << wrong << std::endl;
+    if (!options_.keep.empty()) keep(options_.keep, of.content, "wrong", of.seed);
   }
 
   // Several in one child; one that ends it, or harms what is read after it, is read again in one of its own.
@@ -314,21 +318,33 @@ class Fuzzer {
   void judge(const ImportReport& report, const Case& of) {
     const std::string outcome = outcome_of(report);
     ++counts_[outcome];
+    if (is_fewer_unsaid(report, *of.source)) {
+      ++counts_["of_these_fewer_unsaid"];
+      if (!options_.keep_fewer.empty()) keep(options_.keep_fewer, of.content, "fewer", of.seed);
+    }
     const std::string wrong = violation(report, of.file);
-    if (!wrong.empty()) fail(of.source + ", case " + std::to_string(of.seed) + ": " + wrong);
-    if (is_remarkable(report, of) && !options_.keep.empty()) keep(of.content, outcome, of.seed);
+    if (!wrong.empty()) fail(of.source->name + ", case " + std::to_string(of.seed) + ": " + wrong);
+    if (is_remarkable(report, of) && !options_.keep.empty())
+      keep(options_.keep, of.content, outcome, of.seed);
   }
 
-  void keep(const std::string& content, const std::string& outcome, std::uint64_t seed) {
-    fs::create_directories(options_.keep);
-    std::ofstream(fs::path(options_.keep) / (outcome + "_" + std::to_string(seed) + ".cad"), std::ios::binary)
+  // Curves are missing and nothing is said: a whole entity may have been cut out, or something is lost.
+  static bool is_fewer_unsaid(const ImportReport& report, const CorpusText& source) {
+    return report.ok() && report.curves.size() < source.curves &&
+           report.diagnostics.size() <= source.diagnostics;
+  }
+
+  static void keep(const std::string& directory, const std::string& content, const std::string& outcome,
+                   std::uint64_t seed) {
+    fs::create_directories(directory);
+    std::ofstream(fs::path(directory) / (outcome + "_" + std::to_string(seed) + ".cad"), std::ios::binary)
         << content;
   }
 
   // A good file is still read as it was before any bad one.
   void check_canary() {
     const CorpusText& good = corpus_[canary_++ % corpus_.size()];
-    const std::size_t curves = import_curves(good.name).curves.size();
+    const std::size_t curves = import_curves(good.name, {.time_limit = patience}).curves.size();
     if (curves != good.curves) fail(good.name + " now gives " + std::to_string(curves) + " curves");
   }
 

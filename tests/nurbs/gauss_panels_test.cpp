@@ -50,5 +50,11 @@ TEST(GaussPanelsTest, AJumpEndsInAPanelOfTheSmallestSize) {
   EXPECT_NEAR(panels.integrals.back(), 0.7, 1e-12);
 }
 
+TEST(GaussPanelsTest, PanelsOfWhatIsRoundOffEnd) {
+  const Panels panels = panels_of([](double u) { return 1 + std::fmod(1e12 * u, 1.0); }, 0, 1);
+  EXPECT_LE(panels.breaks.size(), 11'000U);
+  EXPECT_NEAR(panels.integrals.back(), 1.5, 0.1);
+}
+
 }  // namespace
 }  // namespace nurbeam

@@ -37,6 +37,8 @@ TEST(KnotVectorTest, AnInvalidOneIsRefusedWithTheValueAndTheRule) {
   expect_refusal("knot 1 stands 3 times; at most 2", 2, {0, 0, 0, 1, 1, 1, 2, 2, 2});
   expect_refusal("knot 0 stands 4 times; at most 3", 2, {0, 0, 0, 0, 1, 1, 1});
   expect_refusal("knot 1 stands 4 times; at most 3", 2, {0, 0, 0, 1, 1, 1, 1});
+  expect_refusal("apart; knots must be equal, or at least 1e-60", 1, {0, 0, 1e-320, 1e-320});
+  expect_refusal("apart; knots must be equal, or at least", 1, {0, 0, 1e-70, 1, 1});
 }
 
 TEST(KnotVectorTest, InteriorKnotsMayStandAsOftenAsTheDegreeAndEndKnotsOnceMore) {

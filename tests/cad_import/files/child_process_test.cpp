@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
@@ -72,6 +73,14 @@ TEST(ChildProcess, ASleepingChildEndsWhenItIsInterrupted) {
   EXPECT_EQ(asked, 2);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
   EXPECT_FALSE(has_children());
+}
+
+TEST(ChildProcess, TheShareThatAChildTellsIsSeen) {
+  double seen = 0;
+  EXPECT_EQ(
+      run("half", {.watch = [&](const ChildState& state) { seen = std::max(seen, state.share); }}).status,
+      Status::finished);
+  EXPECT_EQ(seen, 0.5);
 }
 
 TEST(ChildProcess, MemoryBeyondTheLimitIsAResult) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "cad_import/files/child_work.h"
+#include "cad_import/files/told_share.h"
 
 // Does what the request says, for the tests of run_program().
 namespace {
@@ -24,6 +25,10 @@ std::string work(const std::string& request) {
   if (word == "raise") raise(static_cast<int>(number()));
   if (word == "exit") _exit(0);
   if (word == "sleep") sleep(100);
+  if (word == "half") {
+    nurbeam::tell_share(0.5);
+    sleep(1);
+  }
   if (word == "descriptors") return open_descriptors();
   if (word == "print") {
     std::printf("noise");

@@ -11,6 +11,7 @@
 
 #include "nurbs/arc_length.h"
 #include "nurbs/closest_point.h"
+#include "nurbs/smooth/drawn_conic.h"
 #include "tests/support/curves.h"
 
 namespace nurbeam {
@@ -196,6 +197,50 @@ TEST(SmoothNurbs, AWholeCircleIsC1ThroughoutWithMildWeights) {
       const double start = circle.knots().start(), all = circle.knots().end() - start;
       for (int i = 0; i <= 1000; ++i) EXPECT_NEAR(circle.point(start + all * (0.001 * i)).norm(), 1, 2e-13);
     }
+}
+
+/// A whole ellipse about a centre as so many quadratic arcs.
+NurbsCurve drawn_ellipse(const Eigen::Vector3d& centre, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                         int parts) {
+  Eigen::Matrix4Xd points(4, 2 * parts + 1);
+  std::vector<double> knots(3, 0);
+  for (int i = 0; i <= 2 * parts; ++i) {
+    const double angle = i * pi / parts, weight = i % 2 == 0 ? 1 : std::cos(pi / parts);
+    const Eigen::Vector3d at = centre + (std::cos(angle) * a + std::sin(angle) * b) / weight;
+    points.col(i) << weight * at, weight;
+    if (i % 2 == 0 && i > 0 && i < 2 * parts) knots.insert(knots.end(), 2, i / 2);
+  }
+  knots.insert(knots.end(), 3, parts);
+  return {KnotVector(2, knots), points};
+}
+
+TEST(DrawnConic, IsTheArcsThatItWasDrawnOf) {
+  Generator generator(79);
+  for (const int parts : {3, 4})
+    for (const int cuts : {1, 2, 3, 5, 8, 25}) {
+      SCOPED_TRACE(::testing::Message() << parts << " arcs in " << cuts << " pieces");
+      for (const auto& [centre, a, b] :
+           {std::tuple(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)),
+            std::tuple(Eigen::Vector3d(30, -5, 2), Eigen::Vector3d(3, 1, 0), Eigen::Vector3d(0.5, 0.2, 2))}) {
+        const NurbsCurve drawn = drawn_ellipse(centre, a, b, parts);
+        const BezierPath path = in_pieces(generator, drawn, cuts);
+        const auto found = drawn_conic(path, 1e-12 * length(drawn));
+        ASSERT_TRUE(found);
+        const NurbsCurve& back = found->curve;
+        ASSERT_EQ(back.control_points().cols(), drawn.control_points().cols());
+        EXPECT_LE((back.control_points() - drawn.control_points()).norm(), 1e-12 * length(drawn));
+        EXPECT_EQ(back.knots().multiplicity(back.knots().breaks()[1]), 2);
+      }
+    }
+  // Of more arcs than four, of half a circle, and of other shapes there is none.
+  const NurbsCurve many = drawn_ellipse({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 8);
+  EXPECT_FALSE(drawn_conic(BezierPath::from_nurbs(many, 1e-9), 1e-12));
+  EXPECT_FALSE(drawn_conic(BezierPath::from_nurbs(circular_arc(1, 2), 1e-9), 1e-12));
+  BezierPath bent = BezierPath::from_nurbs(drawn_ellipse({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 4), 1e-9);
+  Eigen::Matrix4d points = bent.segments[1].points();
+  points(2, 1) += 1e-3;
+  bent.segments[1] = RationalCubic(points);
+  EXPECT_FALSE(drawn_conic(bent, 1e-12));
 }
 
 TEST(SmoothNurbs, AWholeEllipseFarAwayIsSoToo) {
