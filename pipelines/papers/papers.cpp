@@ -29,8 +29,15 @@ void write_papers(const std::filesystem::path& directory, std::ostream& progress
       "two other programs with their errors (1e-5 m in Example 1, 2e-5 m in Examples 2 and 3 as drawn, 1e-4 "
       "m "
       "in Example 3 straight).");
+  page.paragraph(
+      "What became of each item of both papers, [D] the element and [S] the subdivision. *Reproduced*: computed, "
+      "and as the paper says. *Corrected*: as the paper has it it is wrong, which is shown beside what nurbeam "
+      "does instead. *Not to be had*: the paper's text does not hold it.");
+  page.place_status();
+  write_equations(page);
   write_falling_beam(page, progress);
   write_suspended_beam(page, progress);
+  write_cable(page, progress);
   write_semicircle(page, progress);
   write_forms(page, progress);
   write_axial_strain(page, progress);

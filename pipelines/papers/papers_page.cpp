@@ -19,6 +19,21 @@ void write_file(const std::filesystem::path& file, const std::string& content) {
   publish(file);
 }
 
+std::string table_text(const std::vector<std::string>& header,
+                       const std::vector<std::vector<std::string>>& rows) {
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& cells) {
+    if (cells.size() != header.size())
+      throw std::logic_error("a table's row has other cells than its heading");
+    for (const std::string& cell : cells) text += "| " + cell + " ";
+    text += "|\n";
+  };
+  add(header);
+  add(std::vector<std::string>(header.size(), "---"));
+  for (const auto& cells : rows) add(cells);
+  return text;
+}
+
 }  // namespace
 
 Page::Page(std::filesystem::path directory) : directory_(std::move(directory)) {
@@ -34,14 +49,7 @@ void Page::paragraph(const std::string& words) { text_ << '\n' << words << '\n';
 
 void Page::table(const std::string& statement, const std::vector<std::string>& header,
                  const std::vector<std::vector<std::string>>& rows) {
-  const auto row = [&](const std::vector<std::string>& cells) {
-    for (const std::string& cell : cells) text_ << "| " << cell << ' ';
-    text_ << "|\n";
-  };
-  text_ << '\n' << statement << ".\n\n";
-  row(header);
-  row(std::vector<std::string>(header.size(), "---"));
-  for (const auto& cells : rows) row(cells);
+  text_ << '\n' << statement << ".\n\n" << table_text(header, rows);
 }
 
 void Page::figure(const std::string& name, const Plot& plot, const std::string& statement) {
@@ -49,7 +57,20 @@ void Page::figure(const std::string& name, const Plot& plot, const std::string& 
   text_ << "\n![" << plot.title << "](images/papers/" << name << ".svg)\n\n" << statement << ".\n";
 }
 
-void Page::write() const { write_file(directory_ / "papers.md", text_.str()); }
+void Page::place_status() {
+  head_ = text_.str();
+  text_.str("");
+}
+
+void Page::write() const {
+  std::string table;
+  if (!statuses_.empty()) {
+    std::vector<std::vector<std::string>> rows;
+    for (const Status& row : statuses_) rows.push_back({row.item, row.where, row.verdict, row.error});
+    table = "\n" + table_text({"item", "where", "verdict", "error"}, rows);
+  }
+  write_file(directory_ / "papers.md", head_ + table + text_.str());
+}
 
 std::string number(double value, int digits) {
   if (!std::isfinite(value)) return "-";

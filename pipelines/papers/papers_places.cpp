@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "nurbs/rational_cubic.h"
+#include "pipelines/papers/papers_page.h"
 
 namespace nurbeam::papers {
 
@@ -18,6 +19,13 @@ double largest_distance(const Run& run, const std::vector<references::Place>& pl
     largest = std::max(largest, std::hypot(body_x(*at) - place.x, body_y(*at) - place.y));
   }
   return largest;
+}
+
+std::string instants(const std::vector<references::Place>& places) {
+  std::string text;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < places.size() ? ", " : " and ") + number(places[i].time);
+  return text + " s";
 }
 
 double rms_distance(const Run& run, const Run& fine) {
@@ -66,6 +74,16 @@ PlotLine nodes_of(const std::string& label, const BeamRecord& beam) {
     line.y.push_back(r.y());
   }
   return line;
+}
+
+Plot start_of(const std::string& title, const Run& run) {
+  const Snapshot& frame = run.frames.front();
+  Plot plot{title, "x [m]", "y [m]", {}};
+  plot.equal_axes = true;
+  plot.lines = {shape_of("beam", frame.beams[0]),
+                nodes_of("nodes", frame.beams[0]),
+                {"mass", {body_x(frame)}, {body_y(frame)}, PlotLine::Style::marks}};
+  return plot;
 }
 
 }  // namespace nurbeam::papers

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "pipelines/papers/papers_run.h"
@@ -10,6 +11,8 @@ namespace nurbeam::papers {
 
 /// Largest distance of the body from the reference places [m]; not a number if a run ended before.
 double largest_distance(const Run& run, const std::vector<references::Place>& places);
+/// The times of the reference places, as "0.5 and 1 s".
+std::string instants(const std::vector<references::Place>& places);
 /// Rms over the frames of the distance between the bodies of two runs with the same frames [m]; not a number
 /// if the first ended early.
 double rms_distance(const Run& run, const Run& fine);
@@ -40,6 +43,9 @@ PlotLine line_of(const std::string& label, const Run& run, X x, Y y) {
 PlotLine shape_of(const std::string& label, const BeamRecord& beam);
 /// Its nodes.
 PlotLine nodes_of(const std::string& label, const BeamRecord& beam);
+
+/// A figure of how a run starts: the beam, its nodes and the body.
+Plot start_of(const std::string& title, const Run& run);
 
 inline double time_of(const Snapshot& frame) { return frame.time; }
 inline double body_x(const Snapshot& frame) { return frame.bodies[0].point.position.x(); }

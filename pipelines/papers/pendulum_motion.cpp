@@ -11,7 +11,7 @@
 #include "fem/element/subdivision.h"
 #include "fem/model/build.h"
 #include "pipelines/papers/papers.h"
-#include "pipelines/papers/plot.h"
+#include "pipelines/papers/raised_arc.h"
 
 namespace nurbeam {
 
@@ -20,29 +20,13 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double radius = 0.5, half_angle = std::numbers::pi / 6;  // [m], [rad]
-const Vector3d end_B(radius* std::sin(2 * half_angle), radius*(1 - std::cos(2 * half_angle)), 0);
-
-// The conic with weights 1, c cos(30 deg), c^2 raised to degree 3: r'(1)/r'(0) = 1/c^2.
-RationalCubic raised_conic(double c) {
-  const double w = c * std::cos(half_angle);
-  const Vector3d tip(radius * std::tan(half_angle), 0, 0);
-  Eigen::Matrix<double, 4, 3> conic;
-  conic.col(0) << 0, 0, 0, 1;
-  conic.col(1) << w * tip, w;
-  conic.col(2) << c * c * end_B, c * c;
-  Eigen::Matrix4d points;
-  points.col(0) = conic.col(0);
-  points.col(1) = (conic.col(0) + 2 * conic.col(1)) / 3;
-  points.col(2) = (2 * conic.col(1) + conic.col(2)) / 3;
-  points.col(3) = conic.col(2);
-  return RationalCubic(points);
-}
+const Vector3d end_B = arc_end(radius, half_angle);
 
 }  // namespace
 
 RationalCubic pendulum_axis(PendulumArc arc) {
-  if (arc == PendulumArc::uniform) return raised_conic(1);
-  if (arc == PendulumArc::extreme) return raised_conic(1.0 / 4);
+  if (arc == PendulumArc::uniform) return raised_arc(radius, half_angle, 1);
+  if (arc == PendulumArc::extreme) return raised_arc(radius, half_angle, 1.0 / 4);
   NodalCoordinates e = NodalCoordinates::Zero();
   e.col(1) << 0.667185831, 0, 0;
   e.col(2) = end_B;
@@ -50,18 +34,23 @@ RationalCubic pendulum_axis(PendulumArc arc) {
   return to_bezier(e, {1, 1.08621103, 0.98905339, 1}, radius * 2 * half_angle);
 }
 
-BeamModel pendulum_model(const PendulumMesh& mesh) {
+BeamProperties pendulum_section() {
   constexpr double section_radius = 0.02, density = 6000, E = 2e6,
                    area = std::numbers::pi * section_radius * section_radius;
+  BeamProperties section{E * area, E * area * section_radius * section_radius / 4, density * area};
+  section.axial_strain = AxialStrain::pointwise;  // as in [S]
+  return section;
+}
+
+BeamModel pendulum_model(const PendulumMesh& mesh) {
   const RationalCubic axis = pendulum_axis(mesh.arc);
   const ReferenceCurve drawn({axis}, 2);
   Beam beam{.name = "arc",
             .curve = ReferenceCurve({axis}, 2, mesh.metric ? Metric::arc_length : Metric::label),
-            .properties = {E * area, E * area * section_radius * section_radius / 4, density * area, 0,
-                           mesh.curvature},
+            .properties = pendulum_section(),
             .weights = mesh.ancf ? WeightRule::ones : WeightRule::material,
             .home = home_nodes({0, drawn.length()}, {mesh.elements}, mesh.grading)};
-  beam.properties.axial_strain = AxialStrain::pointwise;  // as in [S]
+  beam.properties.curvature = mesh.curvature;
   for (HomeNode& node : beam.home) node.s = beam.curve.arc_length(0, drawn.parameter(0, node.s));
   beam.home.back().s = beam.curve.length();
   ModelBuilder builder(2, {0, -9.81, 0});

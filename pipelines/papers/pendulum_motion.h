@@ -16,8 +16,10 @@ enum class PendulumArc {
 };
 RationalCubic pendulum_axis(PendulumArc arc);
 
-/// How the pendulum is divided and measured; planar, pinned at A, section radius 0.02 m, density 6000 kg/m^3,
-/// E = 2e6 Pa, stress-free as drawn.
+/// Section radius 0.02 m, density 6000 kg/m^3, E = 2e6 Pa, pointwise axial strain.
+BeamProperties pendulum_section();
+
+/// How the pendulum is divided and measured; planar, pinned at A, stress-free as drawn.
 struct PendulumMesh {
   PendulumArc arc = PendulumArc::uniform;
   int elements = 8;    ///< in reference arc length
