@@ -125,6 +125,24 @@ double at_time(double t, const Series& f, const Series& times) {
   return (1 - part) * f[i] + part * f[i + 1];
 }
 
+/// The first time at which a history comes to a value, from below or from above; NaN where it never does.
+double first_passing(const Series& f, double value, const Series& times) {
+  if (f.front() == value) return times.front();
+  for (std::size_t i = 0; i + 1 < f.size(); ++i) {
+    const double before = f[i] - value, after = f[i + 1] - value;
+    if (after == 0 || before * after < 0)
+      return times[i] + before / (before - after) * (times[i + 1] - times[i]);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+ExpressionValue passing(const Values& values, const ExpressionScope& scope) {
+  const Series& f = history(values[0], "passes");
+  const auto* value = std::get_if<double>(&values[1]);
+  if (!value) throw std::invalid_argument("the value of passes(history, value) must be one number");
+  return first_passing(f, *value, scope.times);
+}
+
 /// A function of one history and the stored times.
 template <class Function>
 Node::Operation of_history(const char* name, Function f) {
@@ -169,6 +187,7 @@ const std::vector<NamedFunction>& functions() {
                     return std::sqrt(mean_of(f, times));
                   })},
       {"integral", 1, of_history("integral", &integral_of)},
+      {"passes", 2, &passing},
   };
   return all;
 }
@@ -227,7 +246,11 @@ class ExpressionParser {
     ExpressionParser& parser;
   };
 
-  static NodePointer call(Node::Operation operation, Node::Arguments arguments) {
+  // They are evaluated recursively.
+  NodePointer call(Node::Operation operation, Node::Arguments arguments) {
+    constexpr int most = 1000;
+    if (++operations_ > most)
+      fail("the expression has more than " + std::to_string(most) + " operations; shorten it");
     return std::make_shared<const Node>(
         Node{.operation = std::move(operation), .arguments = std::move(arguments)});
   }
@@ -402,7 +425,7 @@ class ExpressionParser {
 
   const std::string& text_;
   std::size_t at_ = 0;
-  int depth_ = 0;
+  int depth_ = 0, operations_ = 0;
 };
 
 }  // namespace

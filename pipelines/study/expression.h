@@ -37,7 +37,8 @@ struct ExpressionScope {
 /// A formula over numbers and histories, as studies have them: + - * / ^, comparisons (1 or 0), the functions
 /// abs, sqrt, exp, log, sin, cos, tan, atan2, hypot, or (the first argument where it is a number, else the
 /// second), and of histories min, max, first, last, mean, rms (weighted by time), integral and at(t, history)
-/// with t a number, start or end, and time(kind, body). A name is a column, NAME.QUANTITY, or a variable;
+/// with t a number, start or end, and time(kind, body). passes(history, value) is the first time at which a
+/// history comes to a value. A name is a column, NAME.QUANTITY, or a variable;
 /// parts that are no words stand in single quotes: 'body 1'.speed.
 class Expression {
  public:

@@ -19,10 +19,13 @@ namespace {
 std::optional<EventKind> event_kind(const std::string& name) {
   static const std::map<std::string, EventKind> kinds = [] {
     std::map<std::string, EventKind> all = {{"leaves", EventKind::left_beam},
-                                            {"stops", EventKind::stopped_at_end}};
+                                            {"stops", EventKind::stopped_at_end},
+                                            {"hits", EventKind::hits_stop},
+                                            {"rests", EventKind::rests_at_stop}};
     for (const EventKind kind :
          {EventKind::split, EventKind::merge, EventKind::becomes_point, EventKind::becomes_node,
-          EventKind::left_beam, EventKind::stopped_at_end, EventKind::released})
+          EventKind::left_beam, EventKind::stopped_at_end, EventKind::released, EventKind::sticks,
+          EventKind::slides, EventKind::hits_stop, EventKind::rests_at_stop, EventKind::leaves_stop})
       all.emplace(name_of(kind), kind);
     return all;
   }();
@@ -87,14 +90,19 @@ void Histories::replace(std::size_t time, const Histories& other) {
 }
 
 SnapshotContents Histories::contents() const {
-  SnapshotContents all{
-      .beams = false, .probes = false, .sections = false, .reactions = false, .energy = false};
+  SnapshotContents all{.beams = false,
+                       .probes = false,
+                       .sections = false,
+                       .reactions = false,
+                       .energy = false,
+                       .measures = false};
   for (const HistoryColumn& column : *columns_) {
     all.beams |= column.contents.beams;
     all.probes |= column.contents.probes;
     all.sections |= column.contents.sections;
     all.reactions |= column.contents.reactions;
     all.energy |= column.contents.energy;
+    all.measures |= column.contents.measures;
   }
   return all;
 }
@@ -128,7 +136,7 @@ std::size_t first_event(const std::vector<RunEvent>& events, const BeamModel& mo
   const std::optional<EventKind> wanted = event_kind(kind);
   if (!wanted)
     throw std::invalid_argument("there is no event " + in_quotes(kind) +
-                                "; leaves, stops, released, split, merge are");
+                                "; leaves, stops, hits, rests, sticks, slides, released, split, merge are");
   std::size_t i = 0;
   for (; i < events.size(); ++i) {
     const RunEvent& event = events[i];

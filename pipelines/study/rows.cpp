@@ -12,6 +12,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "pipelines/diagnostics/closest_name.h"
@@ -48,6 +49,29 @@ std::string differing(const StudyIdentity& study, const Json& head) {
     if (!study.parts.contains(name)) names[name];
   std::string text;
   for (const auto& [name, none] : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+constexpr char before_checksum = '\t';
+constexpr const char* begin_anew =
+    "; run without --resume, which begins anew, or into another directory by --out";
+constexpr const char* or_begin_anew = ", or run without --resume";
+
+std::string checksum_of(const std::string& text, const std::string& study) {
+  return sha256_of_text(study + "\n" + text);
+}
+
+// A line of a study's file.
+std::string with_checksum(const std::string& text, const std::string& study) {
+  return text + before_checksum + checksum_of(text, study) + "\n";
+}
+
+// What a line says, where its checksum is right.
+std::optional<std::string> without_checksum(const std::string& line, const std::string& study) {
+  const std::size_t at = line.rfind(before_checksum);
+  if (at == std::string::npos) return {};
+  const std::string text = line.substr(0, at);
+  if (line.substr(at + 1) != checksum_of(text, study)) return {};
   return text;
 }
 
@@ -104,35 +128,58 @@ StudyIdentity identity_of(const StudyFile& study, const StudyCase* study_case) {
 }
 
 StudyRows::StudyRows(std::filesystem::path file, const StudyIdentity& study, bool resume)
-    : StudyRows(std::move(file)) {  // which is closed whatever is thrown
-  signal(SIGXFSZ, SIG_IGN);         // a file that may not grow is found by the write's failure
+    : StudyRows(std::move(file), study.digest) {  // which is closed whatever is thrown
+  signal(SIGXFSZ, SIG_IGN);                       // a file that may not grow is found by the write's failure
+  std::error_code none;
+  if (std::filesystem::exists(file_, none) && !std::filesystem::is_regular_file(file_, none))
+    fail("is no file; give another directory by --out");
   descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(std::strerror(errno));
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("another nurbeam study writes to it");
   if (resume) read_back(study);
   cut_to_size();  // not before the lock: until then the rows are another's
-  if (size_ == 0)
-    write(Json{{"nurbeam_study_rows", 1}, {"digest", study.digest}, {"parts", study.parts}}.dump() + "\n");
+  const Json head = {{"nurbeam_study_rows", 2}, {"digest", study.digest}, {"parts", study.parts}};
+  if (size_ == 0) write(with_checksum(head.dump(), ""));
 }
 
 StudyRows::~StudyRows() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
+void StudyRows::check_head(const std::string& line, const StudyIdentity& study) const {
+  const std::optional<std::string> checked = without_checksum(line, "");
+  const Json head = Json::parse(checked.value_or(line), nullptr, false);
+  const bool readable = head.is_object() && head.contains("digest") && head["digest"].is_string();
+  if (!checked && !(readable && head.value("nurbeam_study_rows", Json()) == 1))
+    throw UnusableRowsError(file_.string() + ": its first line is damaged" + begin_anew);
+  if (head["digest"] != study.digest)
+    throw UnusableRowsError(
+        file_.string() + ": belongs to another study: changed since: " + differing(study, head) + begin_anew);
+  if (!checked)
+    throw UnusableRowsError(file_.string() + ": has no checksums: an earlier version has written it" +
+                            begin_anew);
+}
+
 void StudyRows::read_back(const StudyIdentity& study) {
   std::ifstream in(file_, std::ios::binary);
   std::string line;
-  while (std::getline(in, line) && !in.eof()) {  // a last line without an end is not whole
-    if (size_ == 0) {
-      const Json head = Json::parse(line, nullptr, false);
-      if (!head.is_object() || head.value("digest", "") != study.digest)
-        throw OtherStudyError(
-            file_.string() + ": belongs to another study: changed since: " + differing(study, head) +
-            "; run without --resume, which begins anew, or into another directory by --out");
+  for (std::size_t number = 1; std::getline(in, line) && !in.eof(); ++number) {  // else it is not whole
+    if (number == 1) {
+      check_head(line, study);
     } else {
+      const std::optional<std::string> checked = without_checksum(line, study_);
+      if (!checked)
+        throw UnusableRowsError(
+            file_.string() + ": line " + std::to_string(number) +
+            " is damaged or was changed: it has not the checksum that it was written with; "
+            "remove the line, and its variant runs again" +
+            or_begin_anew);
       try {
-        Variant variant = variant_of(line);
-        stored_.insert_or_assign(variant.number, std::move(variant));
+        Variant variant = variant_of(*checked);
+        if (variant.status == VariantStatus::crashed)
+          stored_.erase(variant.number);  // runs again: the machine ended it
+        else
+          stored_.insert_or_assign(variant.number, std::move(variant));
       } catch (const std::runtime_error& problem) {
         fail(std::string("a line ") + problem.what());
       }
@@ -146,7 +193,9 @@ void StudyRows::cut_to_size() {
 }
 
 void StudyRows::append(const Variant& variant) {
-  write(line_of(variant));
+  std::string line = line_of(variant);
+  line.pop_back();  // its end
+  write(with_checksum(line, study_));
   constexpr double longest_unsynchronised = 1;  // [s]
   if (seconds_now() - last_synchronised_ > longest_unsynchronised) synchronise();
 }

@@ -17,8 +17,8 @@ struct StudyRowsError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Rows that are there belong to another study.
-struct OtherStudyError : StudyRowsError {
+/// Rows that are there cannot be gone on with: they belong to another study, or are damaged.
+struct UnusableRowsError : StudyRowsError {
   using StudyRowsError::StudyRowsError;
 };
 
@@ -32,11 +32,13 @@ struct StudyIdentity {
 StudyIdentity identity_of(const StudyFile& study, const StudyCase* study_case);
 
 /// The finished variants of a study in a file, one line each, appended as they come: what was written stays
-/// whatever ends the program. Everything that fails throws StudyRowsError.
+/// whatever ends the program. Behind each line stands its checksum, which is also that of its study.
+/// Everything that fails throws StudyRowsError.
 class StudyRows {
  public:
-  /// Begins anew, or goes on where `resume`: then the file must belong to the same study, by its digest, else
-  /// it throws OtherStudyError; a last line that is not whole is cut off.
+  /// Begins anew, or goes on where `resume`: then the file must belong to the same study, by its digest, and
+  /// all lines have their checksums, else it throws UnusableRowsError; a last line that is not whole is cut
+  /// off.
   StudyRows(std::filesystem::path file, const StudyIdentity& study, bool resume);
   StudyRows(const StudyRows&) = delete;
   ~StudyRows();
@@ -48,13 +50,16 @@ class StudyRows {
   void synchronise();
 
  private:
-  explicit StudyRows(std::filesystem::path file) : file_(std::move(file)) {}
+  StudyRows(std::filesystem::path file, std::string study)
+      : file_(std::move(file)), study_(std::move(study)) {}
   void read_back(const StudyIdentity& study);
+  void check_head(const std::string& line, const StudyIdentity& study) const;
   void cut_to_size();
   void write(const std::string& line);
   [[noreturn]] void fail(const std::string& what) const;
 
   std::filesystem::path file_;
+  std::string study_;  ///< its digest
   int descriptor_ = -1;
   long long size_ = 0;  ///< of whole lines [bytes]
   double last_synchronised_ = 0;

@@ -197,6 +197,12 @@ struct MovedCurve {
       indices.resize(static_cast<std::size_t>(points.cols()));
       std::iota(indices.begin(), indices.end(), 0);
     }
+    if (transform.kind == CurveTransform::Kind::place) {
+      const Eigen::Vector3d by =
+          (value - transform.direction.dot(points.col(indices.front()))) * transform.direction;
+      for (const int i : indices) points.col(i) += by;
+      return;
+    }
     for (const int i : indices) points.col(i) = moved(transform, value, points.col(i));
   }
 
@@ -210,6 +216,8 @@ struct MovedCurve {
                Eigen::AngleAxisd(value * std::numbers::pi / 180, transform.direction) * (p - transform.about);
       case CurveTransform::Kind::scale:
         return transform.about + value * (p - transform.about);
+      case CurveTransform::Kind::place:
+        break;  // which depends on the first point
     }
     return p;
   }

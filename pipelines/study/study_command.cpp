@@ -172,7 +172,7 @@ ExitCode make_directory(const ReadyStudy& ready, const StudyOptions& options, st
 void write_results(const ReadyStudy& ready, const StudyOptions& options, const StudyResult& result) {
   write_study_table(options.out / "study.csv", ready.study, result);
   write_study_netcdf(options.out / "study.nc", ready.study, result);
-  write_study_summary(options.out / "study.json", ready.study, result);
+  write_study_summary(options.out / "study.json", ready.study, result, options.out / "study.csv");
   const StudyCase* study_case = ready.study_case ? &*ready.study_case : nullptr;
   write_study_report(options.out / "study.html", ready.study, study_case, result);
   if (!study_case) return;
@@ -192,6 +192,12 @@ void remove_former_results(const std::filesystem::path& directory) {
 
 // What an answer is not.
 void warn_of_answer(const StudyResult& result, const StudyOptions& options, std::ostream& err) {
+  const auto is_crashed = [](const Variant& each) { return each.status == VariantStatus::crashed; };
+  const auto first = std::ranges::find_if(result.variants, is_crashed);
+  if (first != result.variants.end())
+    err << "warning: " << options.file.string() << ": " << std::ranges::count_if(result.variants, is_crashed)
+        << " of " << result.variants.size() << " variants crashed (variant " << first->number << ": "
+        << first->reason << "); --resume runs them again\n";
   const auto* optimum = std::get_if<OptimumResult>(&result.answer);
   if (optimum && !optimum->not_converged.empty())
     err << "warning: " << options.file.string() << ": optimise: " << optimum->not_converged << "\n";
@@ -233,7 +239,7 @@ int run_at_one_rank(const ReadyStudy& ready, const StudyOptions& options, StudyE
                     std::ostream& out, std::ostream& err) {
   try {
     return run_and_write(ready, options, engine, out, err);
-  } catch (const OtherStudyError& problem) {
+  } catch (const UnusableRowsError& problem) {
     err << "error: " << problem.what() << "\n";
     return exit_bad_input;
   } catch (const std::runtime_error& problem) {

@@ -158,6 +158,11 @@ class StudyReader : StudyPartReader {
       transform.direction = vector(json["rotate"], "axis");
       transform.about = vector(json["rotate"], "about", Eigen::Vector3d::Zero());
       where = child(path, "rotate.axis");
+    } else if (has(json, "place")) {
+      transform.kind = CurveTransform::Kind::place;
+      const std::size_t axis = std::string("xyz").find(text(json, "place", "x"));
+      transform.direction = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(std::min<std::size_t>(axis, 2)));
+      return transform;
     } else {
       transform.kind = CurveTransform::Kind::scale;
       transform.about = vector(part(json, "scale"), "about", Eigen::Vector3d::Zero());

@@ -42,7 +42,7 @@ struct ControlPointWeight {
 /// turned by the value [degrees] about the axis `direction` through `about`; or scaled by the value from
 /// `about`.
 struct CurveTransform {
-  enum class Kind { translate, rotate, scale } kind = Kind::translate;
+  enum class Kind { translate, rotate, scale, place } kind = Kind::translate;
   std::string beam;
   std::vector<int> points = {};
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of unit length

@@ -8,6 +8,8 @@
 
 #include "cad_import/files/atomic_file.h"
 #include "nurbs/number_text.h"
+#include "pipelines/results/checked_json.h"
+#include "pipelines/results/file_hash.h"
 #include "pipelines/results/netcdf_file.h"
 
 namespace nurbeam {
@@ -302,7 +304,7 @@ void write_study_netcdf(const std::filesystem::path& file, const StudyFile& stud
     std::filesystem::remove(temporary_name(file), ignored);
     throw;
   }
-  publish_durably(file);
+  publish(file);
 }
 
 std::string study_summary(const StudyFile& study, const StudyResult& result) {
@@ -327,9 +329,11 @@ std::string study_summary(const StudyFile& study, const StudyResult& result) {
   return json.dump(2) + "\n";
 }
 
-void write_study_summary(const std::filesystem::path& file, const StudyFile& study,
-                         const StudyResult& result) {
-  write_text(file, study_summary(study, result));
+void write_study_summary(const std::filesystem::path& file, const StudyFile& study, const StudyResult& result,
+                         const std::filesystem::path& table) {
+  Json json = Json::parse(study_summary(study, result));
+  json["files"] = {{{"file", table.filename().string()}, {"sha256", sha256_of_file(table)}}};
+  write_text(file, with_checksum(json.dump()));
 }
 
 std::string study_plan_text(const StudyFile& study) {

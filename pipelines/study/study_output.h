@@ -13,9 +13,9 @@ void write_study_table(const std::filesystem::path& file, const StudyFile& study
 /// study.nc: the same as arrays over "variant"; missing where there is no number.
 void write_study_netcdf(const std::filesystem::path& file, const StudyFile& study, const StudyResult& result);
 
-/// study.json: the study, its counts, and its answer.
-void write_study_summary(const std::filesystem::path& file, const StudyFile& study,
-                         const StudyResult& result);
+/// study.json: the study, its counts, its answer, and the checksum of the table that goes with it.
+void write_study_summary(const std::filesystem::path& file, const StudyFile& study, const StudyResult& result,
+                         const std::filesystem::path& table);
 
 /// The same as a text: its counts, its answer and surrogates.
 std::string study_summary(const StudyFile& study, const StudyResult& result);

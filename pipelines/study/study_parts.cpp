@@ -14,6 +14,7 @@ namespace {
 Dimension dimension_of_value(CurveTransform::Kind kind) {
   switch (kind) {
     case CurveTransform::Kind::translate:
+    case CurveTransform::Kind::place:
       return Dimension::length;
     case CurveTransform::Kind::rotate:
       return Dimension::angle;

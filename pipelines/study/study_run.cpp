@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <new>
 #include <set>
 
 namespace nurbeam {
@@ -216,6 +217,8 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
   } catch (const StudyInterrupted&) {
     result.interrupted = true;
   } catch (const StudyRowsError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {  // of the method: its variants stand
     result.failure = problem.what();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "fem/motion/run/simulation.h"
@@ -293,12 +294,14 @@ Variant run_variant(const StudyFile& study, const StudyCase* study_case, std::si
     }
   } catch (const std::invalid_argument& problem) {
     end(variant, VariantStatus::refused, problem.what());
+  } catch (const std::bad_alloc&) {  // of the machine, not of the variant
+    end(variant, VariantStatus::crashed, "there was not enough memory for it");
   } catch (const std::exception& problem) {
     end(variant, VariantStatus::failed, problem.what());
   }
-  const bool ran = variant.status == VariantStatus::done || variant.status == VariantStatus::rejected ||
-                   variant.status == VariantStatus::timed_out;
-  if (!ran && study.derivatives && study.derivatives_where_known) {
+  const bool may_run_plain =
+      variant.status == VariantStatus::refused || variant.status == VariantStatus::failed;
+  if (may_run_plain && study.derivatives && study.derivatives_where_known) {
     StudyFile plain = study;
     plain.derivatives = false;
     variant = run_variant(plain, study_case, number, std::move(variant.values), threads);

@@ -17,7 +17,7 @@ enum class VariantStatus {
   refused,    ///< no model can be made of it
   failed,     ///< the run did not reach its end, or a quantity is no number
   timed_out,  ///< it took longer than the study allows
-  crashed     ///< the process that ran it ended
+  crashed     ///< the process that ran it ended, or had no memory for it
 };
 
 /// "done", "timed out", ...

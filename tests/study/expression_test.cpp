@@ -51,6 +51,15 @@ TEST(Expression, TakesNumbersOfHistories) {
   EXPECT_EQ(value_of("time(leaves, 'body 1')"), 0.7);
 }
 
+TEST(Expression, KnowsWhenAHistoryComesToAValue) {
+  EXPECT_EQ(value_of("passes('body 1'.s, 6.5)"), 0.5);
+  EXPECT_EQ(value_of("passes('body 1'.s, x)"), 1 + 6.0 / 7);
+  EXPECT_EQ(value_of("passes(a.b.c, 0)"), 0);
+  EXPECT_EQ(value_of("passes(a.b.c, 4)"), 2);
+  EXPECT_TRUE(std::isnan(value_of("passes(a.b.c, 5)")));
+  EXPECT_EQ(value_of("at(passes('body 1'.s, 6.5), a.b.c)"), 0.5);
+}
+
 TEST(Expression, NamesWhatItNeeds) {
   const auto names = Expression::parse("x + max(a.b.c) * x - time(leaves, trolley)").names();
   EXPECT_EQ(names, (std::vector<std::string>{"x", "a.b.c"}));
@@ -91,6 +100,24 @@ TEST(Expression, OfAHistoryIsNoNumber) {
   EXPECT_THROW(value_of("a.b.c + 1"), std::invalid_argument);
   EXPECT_THROW(value_of("mean(x)"), std::invalid_argument);
   EXPECT_THROW(value_of("y"), std::invalid_argument);
+}
+
+// They are evaluated recursively: the stack would end.
+TEST(Expression, OfTooManyOperationsIsRefused) {
+  std::string sum = "1";
+  for (int i = 0; i < 1000; ++i) sum += "+1";
+  EXPECT_EQ(Expression::parse(sum).number({}), 1001);
+  for (const int more : {1, 60'000, 1'000'000}) {
+    std::string longer = sum;
+    for (int i = 0; i < more; ++i) longer += i % 2 ? "*1" : "-1";
+    try {
+      Expression::parse(longer);
+      ADD_FAILURE() << more;
+    } catch (const ExpressionError& error) {
+      EXPECT_NE(std::string(error.what()).find("more than 1000 operations"), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -184,13 +184,15 @@ TEST(Gradient, SaysWhatIsNotAlikeInNeighbours) {
             std::string::npos)
       << turned;
 
-  for (const char* setting : {"integrator.rho_infinity", "step"}) {
-    const std::string other =
-        told_of(test::spline_case(
-                    6, 4, R"json({"end_time": 0.01, "step": 0.6, "integrator": {"rho_infinity": 0.6}})json"),
-                std::string(R"json("variables": [{"name": "v", "path": "analysis.)json") + setting +
-                    R"json(", "range": [0.5, 0.9], "nominal": 0.6}])json",
-                "at(end, tip.z)");
+  for (const auto& [setting, range] :
+       {std::pair{"integrator.rho_infinity", R"json("range": [0.5, 0.9], "nominal": 0.6)json"},
+        {"step", R"json("range": [0.005, 0.009], "nominal": 0.006)json"}}) {
+    const std::string other = told_of(
+        test::spline_case(
+            6, 4, R"json({"end_time": 0.01, "step": 0.006, "integrator": {"rho_infinity": 0.6}})json"),
+        std::string(R"json("variables": [{"name": "v", "path": "analysis.)json") + setting +
+            R"json(", )json" + range + "}]",
+        "at(end, tip.z)");
     EXPECT_NE(
         other.find("no derivative by \"v\": variables that change the times of a run, its integrator or "
                    "when its mesh changes have no derivative"),

@@ -209,6 +209,27 @@ TEST(StudyCase, VariablesMoveGroupsOfControlPoints) {
   EXPECT_EQ(curve.control_points()(3, 2), 1.5);
 }
 
+TEST(StudyCase, VariablesPlaceGroupsOfControlPoints) {
+  const auto placed = [](const std::string& points) {
+    const ReadCase read =
+        read_with(R"json({"name": "height", "transform": {"beam": "rail", "points": [)json" + points +
+                  R"json(], "place": "z"}, "range": ["50 cm", 2]})json");
+    EXPECT_TRUE(read.of_case.value) << read.messages;
+    EXPECT_EQ(read.study.variables[0].unit, "m");
+    EXPECT_EQ(read.study.variables[0].distribution.parameters, (std::vector<double>{0.5, 2}));
+    return moved_rail(read, {1.25});
+  };
+  const ReadCase plain = read_with(
+      R"json({"name": "x", "control_point": {"beam": "rail", "index": 0, "axis": "x"}, "range": [-9, 9]})json");
+  const double x = control_point(placed("2"), 0).x();
+  const NurbsCurve drawn = moved_rail(plain, {x}), curve = placed("2, 1");
+  // As a control point of its own, and the other one by as much.
+  const double lift = 1.25 - control_point(drawn, 2).z();
+  EXPECT_DOUBLE_EQ(control_point(curve, 2).z(), 1.25);
+  EXPECT_LE((control_point(curve, 1) - control_point(drawn, 1) - Eigen::Vector3d(0, 0, lift)).norm(), 1e-14);
+  EXPECT_EQ(control_point(curve, 3), control_point(drawn, 3));
+}
+
 TEST(StudyCase, OneValueStandsInSeveralPlaces) {
   const ReadCase read = read_with(
       R"json({"name": "r", "path": ["beams[rail].section.radius", "beams[cable].section.radius"], "range": ["5 mm", "2 cm"]},
