@@ -18,7 +18,9 @@ py::dict facts(const ImportedCurve& curve) {
   return py::dict("name"_a = curve.name, "entity"_a = curve.entity, "layer"_a = curve.layer,
                   "colour"_a = curve.colour, "part"_a = curve.part, "free"_a = curve.free,
                   "hidden"_a = curve.hidden, "exact"_a = curve.exact, "deviation"_a = curve.deviation,
-                  "pipe_radius"_a = curve.pipe_radius, "bore_radius"_a = curve.bore_radius);
+                  "pipe_radius"_a = curve.pipe_radius, "bore_radius"_a = curve.bore_radius,
+                  "bar_width"_a = curve.bar.width, "bar_height"_a = curve.bar.height,
+                  "bar_area"_a = curve.bar.area);
 }
 
 // (curves with their facts, the file's unit, findings).
@@ -26,7 +28,7 @@ py::tuple read_curves(const std::filesystem::path& file) {
   ImportReport report;
   Interrupts interrupts;
   {
-    const py::gil_scoped_release others_go_on;
+    const WithoutLock others_go_on;
     report = import_curves(file, {.interrupted = [&] { return interrupts.pending(); }});
   }
   interrupts.rethrow();
@@ -42,7 +44,7 @@ PlainFindings write_curves(const std::filesystem::path& file,
   for (const auto& [name, curve] : named) curves.push_back({name, curve});
   const LengthUnit in = parse_length_unit(unit);
   const StepSchema as = schema == "ap242" ? StepSchema::ap242 : StepSchema::ap214;
-  const py::gil_scoped_release others_go_on;
+  const WithoutLock others_go_on;
   return plain(export_curves(file, curves, in, as));
 }
 

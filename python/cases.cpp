@@ -51,7 +51,7 @@ Built build(const std::string& text, const std::filesystem::path& file) {
   Interrupts interrupts;
   Built result;
   {
-    const py::gil_scoped_release others_go_on;
+    const WithoutLock others_go_on;
     result = built(text, file, [&] { return interrupts.pending(); });
   }
   interrupts.rethrow();

@@ -3,15 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "nurbs/arc_length.h"
 #include "nurbs/bezier_path.h"
 #include "nurbs/closest_point.h"
+#include "nurbs/curve_through.h"
+#include "nurbs/joined_curve.h"
 #include "nurbs/knot_insertion.h"
 #include "nurbs/number_text.h"
 #include "nurbs/nurbs_curve.h"
 #include "nurbs/primitives.h"
+#include "nurbs/split_curve.h"
 #include "python/bindings.h"
+#include "python/pickles.h"
 
 namespace nurbeam::python {
 
@@ -112,6 +118,60 @@ void check_arc(const Eigen::Vector3d& center, const Eigen::Vector3d& start, cons
         " m apart, too little for an arc; give the same point twice for a whole circle");
 }
 
+NurbsCurve nurbs_of(const py::bytes& pickled) {
+  const py::tuple parts = parts_of(pickled, "the pickled curve");
+  return {KnotVector(parts[0].cast<int>(), parts[1].cast<std::vector<double>>()),
+          parts[2].cast<Eigen::Matrix4Xd>()};
+}
+
+// The parameter where a curve is so long from its start on.
+double parameter_at(const NurbsCurve& curve, double s) {
+  const double whole = length(curve);
+  if (!(s >= 0 && s <= whole * (1 + 1e-12)))
+    throw std::invalid_argument("the length " + text_of(s) + " m is not on the curve, which is " +
+                                text_of(whole) + " m long");
+  const BezierPath path = BezierPath::from_nurbs(curve, 1e-9 * whole);
+  double before = 0;
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    const double here = length(path.segments[i]), a = path.breaks[i], b = path.breaks[i + 1];
+    if (s <= before + here) return a + (b - a) * ArcLengthMap(path.segments[i]).parameter(s - before);
+    before += here;
+  }
+  return curve.knots().end();
+}
+
+// The curves one behind the other as one.
+NurbsCurve joined(const std::vector<NurbsCurve>& curves) {
+  constexpr double gap = 1e-6;  // of the length
+  double whole = 0;
+  Chain chain;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    whole += length(curves[i]);
+    chain.curves.push_back(static_cast<int>(i));
+    chain.reversed.push_back(false);
+  }
+  for (std::size_t i = 1; i < curves.size(); ++i) {
+    const Eigen::Vector3d end = curves[i - 1].point(curves[i - 1].knots().end()),
+                          start = curves[i].point(curves[i].knots().start());
+    if ((end - start).norm() > gap * whole)
+      throw std::invalid_argument("curve " + std::to_string(i) + " ends at " + text_of(end) + " and curve " +
+                                  std::to_string(i + 1) + " starts at " + text_of(start) + ", " +
+                                  text_of((end - start).norm()) + " m apart; reverse one, or close the gap");
+  }
+  return joined_curve(curves, chain).curve;
+}
+
+NurbsCurve through_points(const Eigen::Ref<const PointRows>& points, int degree,
+                          const std::optional<PointRows>& tangents, bool closed) {
+  const auto rows = [](const auto& matrix) {
+    std::vector<Eigen::Vector3d> rows;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.emplace_back(matrix.row(i));
+    return rows;
+  };
+  return curve_through(rows(points),
+                       {degree, tangents ? rows(*tangents) : std::vector<Eigen::Vector3d>{}, closed});
+}
+
 }  // namespace
 
 void bind_curves(py::module_& module) {
@@ -119,36 +179,34 @@ void bind_curves(py::module_& module) {
       .def(py::init(&make_curve), py::arg("degree"), py::arg("knots"), py::arg("control_points"),
            py::arg("weights"))
       .def_property_readonly("degree", &NurbsCurve::degree)
-      .def_property_readonly(
-          "knots",
-          [](const NurbsCurve& c) -> Eigen::VectorXd {
-            return Eigen::Map<const Eigen::VectorXd>(c.knots().knots().data(),
-                                                     static_cast<Eigen::Index>(c.knots().knots().size()));
-          })
+      .def_property_readonly("knots",
+                             [](const NurbsCurve& c) -> Eigen::VectorXd {
+                               return Eigen::Map<const Eigen::VectorXd>(
+                                   c.knots().knots().data(),
+                                   static_cast<Eigen::Index>(c.knots().knots().size()));
+                             })
       .def_property_readonly("control_points", &control_point_rows)
-      .def_property_readonly(
-          "weights", [](const NurbsCurve& c) -> Eigen::VectorXd { return c.control_points().row(3); })
-      .def_property_readonly(
-          "start", [](const NurbsCurve& c) { return c.knots().start(); })
-      .def_property_readonly(
-          "end", [](const NurbsCurve& c) { return c.knots().end(); })
-      .def(py::pickle(
-          [](const NurbsCurve& c) {
-            return py::make_tuple(c.degree(), c.knots().knots(), c.control_points());
-          },
-          [](const py::tuple& parts) {
-            return NurbsCurve(KnotVector(parts[0].cast<int>(), parts[1].cast<std::vector<double>>()),
-                              parts[2].cast<Eigen::Matrix4Xd>());
-          }))
+      .def_property_readonly("weights",
+                             [](const NurbsCurve& c) -> Eigen::VectorXd { return c.control_points().row(3); })
+      .def_property_readonly("start", [](const NurbsCurve& c) { return c.knots().start(); })
+      .def_property_readonly("end", [](const NurbsCurve& c) { return c.knots().end(); })
+      .def("__reduce__",
+           [](const NurbsCurve& c) {
+             return reduce("nurbs_of", py::make_tuple(c.degree(), c.knots().knots(), c.control_points()));
+           })
       .def("points", &points_at, py::arg("parameters"))
       .def("derivatives", &derivative_rows, py::arg("parameter"), py::arg("n"))
-      .def(
-          "length", [](const NurbsCurve& c) { return length(c); })
+      .def("length", [](const NurbsCurve& c) { return length(c); })
       .def("closest", &closest, py::arg("point"))
       .def("reversed", &NurbsCurve::reversed)
       .def("is_rational", &NurbsCurve::is_rational)
       .def("insert_knot", &with_knot, py::arg("parameter"), py::arg("times"))
       .def("bezier", &bezier_curves)
+      .def("parameter_at", &parameter_at, py::arg("length"))
+      .def(
+          "split_at", [](const NurbsCurve& c, const std::vector<double>& at) { return split_at(c, at); },
+          py::arg("parameters"))
+      .def("moved", &moved_curve, py::arg("map"))
       .def(
           "cubics",
           [](const NurbsCurve& c, double tolerance) {
@@ -156,9 +214,13 @@ void bind_curves(py::module_& module) {
             return std::pair(path.to_nurbs(), path.deviation);
           },
           py::arg("tolerance"));
+  module.def("nurbs_of", &nurbs_of, py::arg("pickled"));
   module.def(
       "line", [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return through({line_cubic(a, b)}); },
       py::arg("start"), py::arg("end"));
+  module.def("joined", &joined, py::arg("curves"));
+  module.def("through", &through_points, py::arg("points"), py::arg("degree"), py::arg("tangents"),
+             py::arg("closed"));
   module.def(
       "arc",
       [](const Eigen::Vector3d& center, const Eigen::Vector3d& start, const Eigen::Vector3d& end,

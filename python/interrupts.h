@@ -4,6 +4,8 @@
 #include <chrono>
 #include <optional>
 
+#include "python/interpreter_lock.h"
+
 namespace nurbeam::python {
 
 /// Asks Python whether Ctrl-C has been pressed; where it has, keeps the exception until it can be thrown.
@@ -12,10 +14,11 @@ class Interrupts {
   /// Whether there is an exception. Takes the interpreter's lock, for which other threads may make it wait,
   /// and so looks 20 times a second.
   bool pending() {
+    stop_where_the_interpreter_ends();
     const Clock::time_point now = Clock::now();
     if (exception_ || now - asked_ < std::chrono::milliseconds(50)) return exception_.has_value();
     asked_ = now;
-    const pybind11::gil_scoped_acquire lock;
+    const WithLock lock;
     if (PyErr_CheckSignals() != 0) exception_.emplace();
     return exception_.has_value();
   }

@@ -8,9 +8,12 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "nurbs/number_text.h"
+#include "python/interpreter_lock.h"
+#include "python/signal.h"
 
 namespace nurbeam::python {
 
@@ -31,7 +34,7 @@ class PythonLaw {
       : function_(function), points_(static_cast<Eigen::Index>(points)), frame_(frame), number_(number) {}
 
   CustomForce::Response operator()(double t, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd& v) const {
-    const py::gil_scoped_acquire lock;
+    const WithLock lock;
     const py::object arguments[] = {py::float_(t), to_array(r, true), to_array(v, false)};
     PyObject* const pointers[] = {arguments[0].ptr(), arguments[1].ptr(), arguments[2].ptr()};
     const auto answer =
@@ -150,7 +153,7 @@ class PythonMotion {
       : function_(function), path_(std::move(path)) {}
 
   Moment at(double t) const {
-    const py::gil_scoped_acquire lock;
+    const WithLock lock;
     const py::object answer = function_(t);
     if (PyTuple_CheckExact(answer.ptr()) && PyTuple_GET_SIZE(answer.ptr()) == 3 &&
         (N == 1 || PySequence_Check(PyTuple_GET_ITEM(answer.ptr(), 0)))) {
@@ -184,6 +187,64 @@ class PythonMotion {
   std::string path_;     // in the case
 };
 
+std::shared_ptr<Signal> signal_in(const py::function& function, int size, const std::string& path) {
+  if (!py::isinstance<Signal>(function)) return nullptr;
+  auto signal = function.cast<std::shared_ptr<Signal>>();
+  if (signal->size() != size)
+    raise_error(PyExc_ValueError, path + ": the signal has " + std::to_string(signal->size()) +
+                                      " numbers; expected " + std::to_string(size));
+  return signal;
+}
+
+// A vector of a signal in the model's own frame.
+Eigen::Vector3d to_local(const Eigen::Vector3d& world, const ModelFrame& frame, const std::string& path) {
+  const Eigen::Vector3d local = frame.rotation * world;
+  if (frame.dimension == 2 && std::abs(local[2]) > 1e-9 * local.norm()) {
+    const WithLock lock;
+    raise_error(PyExc_ValueError, path +
+                                      ": the signal leaves the plane of the model; add the law with "
+                                      "spatial=True, or give the model a load out of its plane");
+  }
+  return local;
+}
+
+// A force that a signal gives to each of its points.
+CustomForce::Law force_law(const std::shared_ptr<Signal>& signal, const ModelFrame& frame,
+                           const std::string& path) {
+  return [signal, frame, path](double t, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd&) {
+    const Eigen::Index n = r.size();
+    return CustomForce::Response{to_local(signal->at(t).value, frame, path).replicate(1, r.cols()),
+                                 Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
+  };
+}
+
+// The drag of a body, factor * |u| u, where u is the wind's velocity beside that of the body.
+CustomForce::Law drag_law(const std::shared_ptr<Signal>& wind, const ModelFrame& frame, double factor) {
+  return [wind, frame, factor](double t, const Eigen::Matrix3Xd& r, const Eigen::Matrix3Xd& v) {
+    const Eigen::Vector3d u = to_local(wind->at(t).value, frame, "wind") - v.col(0);
+    const double speed = u.norm();
+    Eigen::Matrix3d by_velocity = -speed * Eigen::Matrix3d::Identity();
+    if (speed > 0) by_velocity -= u * u.transpose() / speed;
+    return CustomForce::Response{factor * speed * u, Eigen::MatrixXd::Zero(r.size(), r.size()),
+                                 factor * by_velocity};
+  };
+}
+
+// Takes the drag of all bodies from a signal.
+void blow(BeamModel& model, const py::function& function, const ModelFrame& frame) {
+  const std::shared_ptr<Signal> wind = signal_in(function, 3, "wind");
+  if (!wind) raise_error(PyExc_TypeError, "the wind is no signal; expected nurbeam.Signal([x, y, z])");
+  if (!(model.air.density > 0))
+    raise_error(PyExc_ValueError, "wind: the model has no air; give its case an \"air\" with a \"density\"");
+  for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
+    const double area = std::exchange(model.bodies[i].drag_area, 0);
+    if (area == 0) continue;
+    CustomForce drag{{Grip{}}, drag_law(wind, frame, model.air.density * area / 2)};
+    drag.points[0].body = i;
+    model.forces.push_back(std::move(drag));
+  }
+}
+
 PlaceMotion place_motion(const PythonMotion<1>& motion, const Rider& joint, double length) {
   const double start = motion.at(0).value[0];
   if (std::abs(start - joint.s) > 1e-9 * length)
@@ -208,7 +269,7 @@ DisplacementTable support_motion(const PythonMotion<3>& motion, const ModelFrame
   return DisplacementTable([motion, frame](double t) {
     const auto now = motion.at(t);
     if (frame.dimension == 2 && std::abs((frame.rotation * now.value)[2]) > 1e-9 * now.value.norm()) {
-      const py::gil_scoped_acquire lock;
+      const WithLock lock;
       raise_error(
           PyExc_ValueError,
           motion.path() + ".motion: leaves the plane of the model at t = " + text_of(t) +
@@ -222,14 +283,20 @@ DisplacementTable support_motion(const PythonMotion<3>& motion, const ModelFrame
 }  // namespace
 
 BeamModel with_laws(const BuiltModel& built, const Functions& functions, const CaseAnalysis& analysis) {
-  const auto& [forces, motions] = functions;
+  const auto& [forces, motions, wind] = functions;
   if (forces.size() != built.laws.size())
     throw std::invalid_argument("there are " + std::to_string(forces.size()) + " functions for " +
                                 std::to_string(built.laws.size()) + " laws");
   BeamModel model = built.model;
-  for (std::size_t i = 0; i < forces.size(); ++i)
-    model.forces.push_back(
-        CustomForce{built.laws[i], PythonLaw(forces[i], built.laws[i].size(), built.frame, i)});
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const std::string path = "laws[" + std::to_string(i) + "]";
+    if (const auto signal = signal_in(forces[i], 3, path))
+      model.forces.push_back(CustomForce{built.laws[i], force_law(signal, built.frame, path)});
+    else
+      model.forces.push_back(
+          CustomForce{built.laws[i], PythonLaw(forces[i], built.laws[i].size(), built.frame, i)});
+  }
+  if (!wind.empty()) blow(model, wind.front(), built.frame);
   const bool as_drawn = analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium;
   for (const LawOfMotion& law : built.motions) {
     if (law.function >= static_cast<int>(motions.size()))
@@ -238,9 +305,27 @@ BeamModel with_laws(const BuiltModel& built, const Functions& functions, const C
     const py::function& function = motions[law.function];
     if (law.rider >= 0) {
       Rider& joint = model.riders[law.rider];
+      if (const auto speed = signal_in(function, 1, law.path + ".motion")) {
+        speed->set_drives();
+        joint.motion = PlaceMotion([speed, start = joint.s](double t) {
+          const Signal::Moment now = speed->at(t);
+          return PlaceMotion::Moment{start + now.integral[0], now.value[0], now.slope[0]};
+        });
+        continue;
+      }
       joint.motion = place_motion({function, law.path}, joint, model.beam_of(joint).curve.length());
     } else {
       auto& support = std::get<Support>(model.constraints[law.constraint]);
+      if (const auto speed = signal_in(function, 3, law.path + ".motion")) {
+        speed->set_drives();
+        support.motion = DisplacementTable([speed, frame = built.frame, path = law.path](double t) {
+          const Signal::Moment now = speed->at(t);
+          return DisplacementTable::Motion{to_local(now.integral, frame, path),
+                                           to_local(now.value, frame, path),
+                                           to_local(now.slope, frame, path)};
+        });
+        continue;
+      }
       support.motion = support_motion({function, law.path}, built.frame, as_drawn);
     }
   }

@@ -1,5 +1,6 @@
 #include "python/live_run.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -7,6 +8,7 @@
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/run/model_digest.h"
 #include "pipelines/run/simulation_plan.h"
+#include "python/interpreter_lock.h"
 #include "python/laws.h"
 
 namespace nurbeam::python {
@@ -25,11 +27,18 @@ std::shared_ptr<Recording> recording_for(const BuiltCase& c) {
 // Ctrl-C ends a search for rest. A motion is asked between two steps by the run itself, and so stays where it
 // can go on.
 SimulationObserver observer_of(const BuiltCase& c, Recording& recording, FrameChecks& checks,
-                               Interrupts& interrupts, const bool& begun) {
+                               RunExtremes& extremes, Interrupts& interrupts,
+                               const std::atomic<bool>& begun) {
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& local) {
-    recording.frames.push_back(to_world(c.built().frame, local));
-    checks.look_at(recording.frames.back());
+    Snapshot frame = to_world(c.built().frame, local);
+    checks.look_at(frame);
+    extremes.look_at(frame, recording.names);
+    const WithLock lock;
+    recording.frames.push_back(std::move(frame));
+  };
+  observer.peak = [&](Snapshot local) {
+    extremes.look_at(to_world(c.built().frame, std::move(local)), recording.names);
   };
   const bool statics = c.case_file.analysis.type == CaseAnalysis::Type::statics;
   observer.interrupted = [statics, &begun, &interrupts] {
@@ -83,54 +92,79 @@ std::shared_ptr<const BeamModel> model_of(const BuiltCase& c, const Functions& f
 
 }  // namespace
 
-// While it lives no other thread advances the run, and Python goes on.
-class LiveRun::Turn {
+namespace {
+
+[[noreturn]] void fail_as_busy() {
+  throw std::runtime_error(
+      "the simulation is being advanced already, by another thread or by the law that calls");
+}
+
+}  // namespace
+
+class LiveRun::Advance {
  public:
-  explicit Turn(LiveRun& run) : run_(run) {
-    if (run_.busy_.test_and_set())
-      throw std::runtime_error(
-          "the simulation is being advanced already, by another thread or by the law that calls");
-    released_.emplace();
+  explicit Advance(LiveRun& run) : run_(run) {
+    if (run_.busy_.test_and_set()) fail_as_busy();
   }
-  ~Turn() {
-    released_.reset();
-    run_.busy_.clear();
-  }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
+  ~Advance() { run_.busy_.clear(); }
+  Advance(const Advance&) = delete;
+  Advance& operator=(const Advance&) = delete;
 
  private:
   LiveRun& run_;
-  std::optional<py::gil_scoped_release> released_;
 };
+
+LiveRun::Moment::Moment(const LiveRun& run) : turns_(*run.turns_) {
+  if (turns_.is_mine()) fail_as_busy();
+  std::optional<WithoutLock> others_go_on;
+  if (PyGILState_Check() != 0) others_go_on.emplace();
+  turns_.begin();
+}
+
+LiveRun::Moment::~Moment() { turns_.end(); }
 
 LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, const Checkpoint* start)
     : of_(std::move(of)),
       recording_(recording_for(*of_)),
       checks_(of_->built().model),
+      extremes_(start ? start->extremes : std::vector<double>{}),
       simulation_(model_of(*of_, functions, start), probe_places(of_->built()),
                   simulation_options(of_->case_file),
-                  observer_of(*of_, *recording_, checks_, interrupts_, begun_), start) {
+                  observer_of(*of_, *recording_, checks_, extremes_, interrupts_, begun_), start),
+      time_(simulation_.state().t),
+      columns_(history_columns(recording_->names)) {
   if (start) changed_loads_ = start->changed_loads;
 }
 
 Checkpoint LiveRun::checkpoint() const {
+  const Moment moment(*this);
   Checkpoint point = simulation_.checkpoint();
   point.model = model_digest(of_->case_file, of_->built());
   point.changed_loads = changed_loads_;
+  point.extremes = extremes_.numbers();
   return point;
+}
+
+std::pair<SimulationReport, std::vector<Diagnostic>> LiveRun::report() const {
+  const Moment moment(*this);
+  SimulationReport report = simulation_.report();
+  std::vector<Diagnostic> warnings = run_warnings(of_->case_file, of_->built(), report, checks_);
+  return {std::move(report), std::move(warnings)};
 }
 
 bool LiveRun::advance() {
   if (ended_ || interrupts_.pending()) return false;
+  const Moment moment(*this);
   ended_ = !simulation_.advance();
   begun_ = true;
+  time_ = simulation_.state().t;
   return !ended_;
 }
 
 bool LiveRun::step() {
+  const Advance alone(*this);
   {
-    const Turn turn(*this);
+    const WithoutLock others_go_on;
     advance();
   }
   interrupts_.rethrow();
@@ -138,8 +172,9 @@ bool LiveRun::step() {
 }
 
 std::optional<Frame> LiveRun::next() {
+  const Advance alone(*this);
   {
-    const Turn turn(*this);
+    const WithoutLock others_go_on;
     while (given_ == recording_->frames.size() && advance()) {
     }
   }
@@ -152,8 +187,43 @@ Frame LiveRun::now() const {
   auto alone = std::make_shared<Recording>();
   alone->title = recording_->title;
   alone->names = recording_->names;
-  alone->frames.push_back(to_world(of_->built().frame, simulation_.present()));
+  alone->frames.push_back(between_steps(
+      [this](const Simulation& simulation) { return to_world(of_->built().frame, simulation.present()); }));
   return {alone, &alone->frames.front()};
+}
+
+std::vector<double> LiveRun::values(const std::vector<std::string>& names) const {
+  SnapshotContents contents{
+      .beams = false, .probes = false, .sections = false, .reactions = false, .energy = false};
+  std::vector<const HistoryColumn*> wanted;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find_if(
+        columns_, [&](const HistoryColumn& column) { return column.name + "." + column.quantity == name; });
+    if (found == columns_.end()) {
+      std::vector<std::string> known;
+      for (const HistoryColumn& column : columns_) known.push_back(column.name + "." + column.quantity);
+      throw std::invalid_argument("there is no history " + in_quotes(name) + known_names(name, known));
+    }
+    wanted.push_back(&*found);
+    contents.beams |= found->contents.beams;
+    contents.probes |= found->contents.probes;
+    contents.sections |= found->contents.sections;
+    contents.reactions |= found->contents.reactions;
+    contents.energy |= found->contents.energy;
+  }
+  const Snapshot now = between_steps([&](const Simulation& simulation) {
+    return to_world(of_->built().frame, simulation.present(contents));
+  });
+  std::vector<double> values;
+  for (const HistoryColumn* column : wanted) values.push_back(column->value(now));
+  return values;
+}
+
+void LiveRun::set_signal(Signal& signal, const Eigen::Vector3d& value, const Eigen::Vector3d& slope,
+                         double until) {
+  const Advance alone(*this);
+  const Moment moment(*this);
+  signal.set(time_, value, slope, until);
 }
 
 void LiveRun::change_load(std::size_t number, const Eigen::Vector3d& value) {
@@ -169,7 +239,9 @@ void LiveRun::change_load(std::size_t number, const Eigen::Vector3d& value) {
     throw std::invalid_argument(
         "the value of load " + std::to_string(number) +
         " does not lie in the plane of the model, as the loads that it began with do");
-  const Turn turn(*this);
+  const Advance alone(*this);
+  const WithoutLock others_go_on;
+  const Moment moment(*this);
   const Eigen::Vector3d local = is_moment ? frame.moment_to_local(value) : frame.direction_to_local(value);
   const bool goes_on = simulation_.change_forces(
       [&](std::vector<Force>& forces) { set_load(of_->built(), number, local, forces); });

@@ -1,5 +1,6 @@
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "python/bindings.h"
+#include "python/interpreter_lock.h"
 
 namespace nurbeam::python {
 
@@ -15,6 +16,7 @@ PlainFindings plain(const std::vector<Diagnostic>& diagnostics) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "What nurbeam's Python modules are made of; use the package nurbeam.";
   module.attr("version") = NURBEAM_VERSION;
+  nurbeam::python::watch_the_interpreters_end();
   nurbeam::python::bind_curves(module);
   nurbeam::python::bind_cad_files(module);
   nurbeam::python::bind_cases(module);

@@ -40,13 +40,12 @@ class PassingFile {
 
 }  // namespace
 
-std::string bytes_of(const Recording& recording, std::size_t first, std::size_t count) {
-  const auto begin = recording.frames.begin() + static_cast<std::ptrdiff_t>(first);
-  const std::vector<Snapshot> frames(begin, begin + static_cast<std::ptrdiff_t>(count));
+std::string bytes_of(const std::string& title, const SnapshotNames& names,
+                     const std::vector<Snapshot>& frames) {
   StoredRows rows;
   for (const Snapshot& frame : frames) rows += rows_of(frame);
   const PassingFile file;
-  FrameStore store(file.path(), recording.names, recording.title, true, rows);
+  FrameStore store(file.path(), names, title, true, rows);
   store.write(frames);
   store.close();
   std::ifstream in(file.path(), std::ios::binary);

@@ -4,11 +4,21 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 
+#include "fem/motion/remesh/meshed_state.h"
+#include "pipelines/model/model_snapshot.h"
+#include "pipelines/report/report.h"
+#include "pipelines/results/checked_json.h"
 #include "pipelines/results/export_results.h"
 #include "pipelines/results/frame_layout.h"
 #include "pipelines/results/history_columns.h"
+#include "pipelines/results/results.h"
+#include "pipelines/run/simulation_plan.h"
 #include "python/bindings.h"
+#include "python/built_case.h"
+#include "python/interpreter_lock.h"
+#include "python/pickles.h"
 #include "python/recording.h"
 #include "python/recording_bytes.h"
 
@@ -24,7 +34,7 @@ using VectorRows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 constexpr std::size_t frames_at_once = 64;
 
 SharedRecording read_results_directory(const std::filesystem::path& directory) {
-  const py::gil_scoped_release others_go_on;
+  const WithoutLock others_go_on;
   const StoredFrames stored(directory);
   auto recording = std::make_shared<Recording>();
   recording->title = stored.title();
@@ -34,6 +44,11 @@ SharedRecording read_results_directory(const std::filesystem::path& directory) {
     for (Snapshot& frame : stored.read(first, std::min(frames_at_once, count - first)))
       recording->frames.push_back(std::move(frame));
   return recording;
+}
+
+PlainFindings said_of_checksum(const std::filesystem::path& directory) {
+  const auto note = missing_checksum(directory);
+  return note ? plain({*note}) : PlainFindings{};
 }
 
 // (name, quantity, unit) of every column but the time.
@@ -90,38 +105,37 @@ std::optional<ModeTable> mode_table(const py::object& table) {
   return modes;
 }
 
-std::string bytes_without_lock(const Recording& recording, std::size_t first, std::size_t count) {
-  const py::gil_scoped_release others_go_on;
-  return bytes_of(recording, first, count);
+// Frames are appended with the interpreter's lock: it is held while they are copied.
+py::bytes bytes_of_frames(const Recording& recording, const std::vector<Snapshot>& frames) {
+  std::string bytes;
+  {
+    const WithoutLock others_go_on;
+    bytes = bytes_of(recording.title, recording.names, frames);
+  }
+  return {bytes};
 }
 
 SharedRecording shared_from(const py::bytes& bytes) {
   const std::string text = bytes;
-  const py::gil_scoped_release others_go_on;
+  const WithoutLock others_go_on;
   return std::make_shared<Recording>(recording_from(text));
 }
 
-py::tuple recording_state(const Recording& recording) {
-  return py::make_tuple(py::bytes(bytes_without_lock(recording, 0, recording.frames.size())),
+py::tuple recording_parts(const Recording& recording) {
+  return py::make_tuple(bytes_of_frames(recording, {recording.frames.begin(), recording.frames.end()}),
                         mode_rows(recording));
 }
 
-SharedRecording recording_of_state(const py::tuple& state) {
-  SharedRecording recording = shared_from(state[0].cast<py::bytes>());
-  recording->modes = mode_table(state[1]);
+SharedRecording recording_of(const py::bytes& pickled) {
+  const py::tuple parts = parts_of(pickled, "the pickled recording");
+  SharedRecording recording = shared_from(parts[0].cast<py::bytes>());
+  recording->modes = mode_table(parts[1]);
   return recording;
 }
 
 // A snapshot goes by itself, without the others of its recording.
-py::bytes frame_state(const Frame& frame) {
-  const std::deque<Snapshot>& frames = frame.of->frames;
-  const auto is_it = [&](const Snapshot& snapshot) { return &snapshot == frame.snapshot; };
-  const auto number = std::find_if(frames.begin(), frames.end(), is_it) - frames.begin();
-  return {bytes_without_lock(*frame.of, static_cast<std::size_t>(number), 1)};
-}
-
-Frame frame_of_state(const py::bytes& state) {
-  const SharedRecording recording = shared_from(state);
+Frame frame_of(const py::bytes& pickled) {
+  const SharedRecording recording = shared_from(parts_of(pickled, "the pickled snapshot"));
   return {recording, &recording->frames.at(0)};
 }
 
@@ -153,8 +167,9 @@ py::dict sampled(const Frame& frame, std::size_t beam) {
 }
 
 // Homogeneous control points (w x, w y, w z, w) of the elements: (elements x 4 x 4).
-py::array_t<double> control_points(const Frame& frame, std::size_t beam) {
-  const std::vector<ElementRecord>& elements = beam_of(frame, beam).elements;
+// Displacements from the drawing are those of the run times `exaggerate`.
+py::array_t<double> control_points(const Frame& frame, std::size_t beam, double exaggerate) {
+  const std::vector<ElementRecord> elements = exaggerated(beam_of(frame, beam).elements, exaggerate);
   const auto n = static_cast<Eigen::Index>(elements.size());
   py::array_t<double> points({n, Eigen::Index{4}, Eigen::Index{4}});
   auto p = points.mutable_unchecked<3>();
@@ -186,9 +201,9 @@ py::tuple nodes(const Frame& frame, std::size_t beam) {
   return py::make_tuple(s, rows_of(b.node_positions), rows_of(b.node_slopes));
 }
 
-NurbsCurve curve(const Frame& frame, std::size_t beam, bool by_material) {
-  const py::gil_scoped_release others_go_on;
-  return deformed_curve(beam_of(frame, beam).elements,
+NurbsCurve curve(const Frame& frame, std::size_t beam, bool by_material, double exaggerate) {
+  const WithoutLock others_go_on;
+  return deformed_curve(exaggerated(beam_of(frame, beam).elements, exaggerate),
                         by_material ? CurveParameter::material : CurveParameter::free);
 }
 
@@ -220,10 +235,44 @@ std::vector<double> column_values(const Frame& frame) {
   return values;
 }
 
+// The page of a run that is in memory.
+std::string report_page(const Recording& recording, const std::string& run_json) {
+  const WithoutLock others_go_on;
+  std::vector<double> times;
+  for (const Snapshot& frame : recording.frames) times.push_back(frame.time);
+  std::ostringstream page;
+  write_report_page(page,
+                    {recording.title, recording.names, std::move(times),
+                     [&](std::size_t first, std::size_t count) {
+                       const auto begin = recording.frames.begin() + static_cast<std::ptrdiff_t>(first);
+                       return std::vector<Snapshot>(begin, begin + static_cast<std::ptrdiff_t>(count));
+                     }},
+                    run_json);
+  return page.str();
+}
+
+// A model as drawn: one snapshot of nothing that moves.
+std::shared_ptr<Recording> drawn(const BuiltCase& c) {
+  const WithoutLock others_go_on;
+  auto recording = std::make_shared<Recording>();
+  recording->title = c.case_file.name;
+  recording->names = snapshot_names(c.built());
+  const MeshedState drawn = MeshedState::drawn(std::make_shared<const BeamModel>(c.built().model));
+  recording->frames.push_back(
+      to_world(c.built().frame, record_snapshot(*drawn.system, drawn.state, probe_places(c.built()))));
+  return recording;
+}
+
 }  // namespace
 
 void bind_recordings(py::module_& module) {
+  module.def("report_page", &report_page, py::arg("recording"), py::arg("run_json"));
+  module.def("drawn", &drawn, py::arg("case"));
   module.def("read_results", &read_results_directory, py::arg("directory"));
+  module.def("missing_checksum", &said_of_checksum, py::arg("directory"));
+  module.def("checked_json", &checked_json, py::arg("file"));
+  module.def("recording_of", &recording_of, py::arg("pickled"));
+  module.def("frame_of", &frame_of, py::arg("pickled"));
   py::class_<Recording, SharedRecording>(module, "Recording", "The snapshots of a run.")
       .def_readonly("title", &Recording::title)
       .def_property_readonly(
@@ -241,7 +290,8 @@ void bind_recordings(py::module_& module) {
       .def("times", &times)
       .def("steps", &steps)
       .def("modes", &mode_rows)
-      .def(py::pickle(&recording_state, &recording_of_state))
+      .def(
+          "__reduce__", [](const Recording& r) { return reduce("recording_of", recording_parts(r)); })
       .def(
           "frame",
           [](const SharedRecording& r, std::size_t i) {
@@ -252,7 +302,8 @@ void bind_recordings(py::module_& module) {
       .def_property_readonly("time", [](const Frame& f) { return f.snapshot->time; })
       .def_property_readonly("recording",
                              [](const Frame& f) { return std::const_pointer_cast<Recording>(f.of); })
-      .def(py::pickle(&frame_state, &frame_of_state))
+      .def("__reduce__",
+           [](const Frame& f) { return reduce("frame_of", bytes_of_frames(*f.of, {*f.snapshot})); })
       .def("bodies",
            [](const Frame& f) {
              return points(f.of->names.bodies, f.snapshot->bodies.size(),
@@ -266,12 +317,12 @@ void bind_recordings(py::module_& module) {
       .def("connectors", &connectors)
       .def("values", &column_values)
       .def("sampled", &sampled, py::arg("beam"))
-      .def("control_points", &control_points, py::arg("beam"))
+      .def("control_points", &control_points, py::arg("beam"), py::arg("exaggerate"))
       .def("element_ends", &element_ends, py::arg("beam"))
       .def("nodes", &nodes, py::arg("beam"))
       .def(
           "length", [](const Frame& f, std::size_t beam) { return beam_of(f, beam).length; }, py::arg("beam"))
-      .def("curve", &curve, py::arg("beam"), py::arg("by_material"));
+      .def("curve", &curve, py::arg("beam"), py::arg("by_material"), py::arg("exaggerate"));
 }
 
 }  // namespace nurbeam::python

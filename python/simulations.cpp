@@ -21,6 +21,7 @@
 #include "python/interrupts.h"
 #include "python/laws.h"
 #include "python/live_run.h"
+#include "python/signal.h"
 
 namespace nurbeam::python {
 
@@ -61,7 +62,7 @@ py::tuple modes(const std::shared_ptr<BuiltCase>& c, const Functions& functions)
   SimulationReport report;
   FrameChecks checks(built.model);
   {
-    const py::gil_scoped_release others_go_on;
+    const WithoutLock others_go_on;
     const auto keep = [&](const Snapshot& local) {
       recording->frames.push_back(to_world(built.frame, local));
     };
@@ -82,6 +83,7 @@ py::tuple modes(const std::shared_ptr<BuiltCase>& c, const Functions& functions)
   std::vector<Diagnostic> warnings = run_warnings(c->case_file, built, report, checks);
   if (report.status == SimulationStatus::done)  // else it has not come to them
     for (const auto& more : {round_off_warning(c->case_file.path, built.model, *recording->modes),
+                             short_waves_warning(c->case_file.path, *recording->modes),
                              fewer_modes_note(c->case_file, *recording->modes)})
       if (more) warnings.push_back(*more);
   return py::make_tuple(recording, report_facts(report, *c, warnings));
@@ -103,12 +105,12 @@ py::tuple run_into(const std::shared_ptr<BuiltCase>& c, const Functions& functio
     const bool last = step.time >= c->case_file.analysis.end_time;
     if (!progress || (!last && Clock::now() - told < std::chrono::milliseconds(100))) return;
     told = Clock::now();
-    const py::gil_scoped_acquire lock;
+    const WithLock lock;
     (*progress)(step.time);
   };
   int code = 0;
   {
-    const py::gil_scoped_release others_go_on;
+    const WithoutLock others_go_on;
     code = run_model(c->case_file, report, options);
   }
   interrupts.rethrow();
@@ -118,6 +120,23 @@ py::tuple run_into(const std::shared_ptr<BuiltCase>& c, const Functions& functio
 }  // namespace
 
 void bind_simulations(py::module_& module) {
+  py::class_<Signal, std::shared_ptr<Signal>>(module, "Signal", "A value that a run reads at its time.")
+      .def(py::init([](int size, const Eigen::Vector3d& value) {
+             return std::make_shared<Signal>(Signal::State{.size = size, .value = value});
+           }),
+           py::arg("size"), py::arg("value"))
+      .def(
+          "__call__", [](const Signal& signal, double t) { return signal.at(t).value; }, py::arg("t"))
+      .def("state",
+           [](const Signal& signal) {
+             const Signal::State s = signal.state();
+             return py::make_tuple(s.size, s.value, s.slope, s.integral, s.since, s.until, s.drives);
+           })
+      .def("restore", [](Signal& signal, const py::tuple& s) {
+        signal.restore({s[0].cast<int>(), s[1].cast<Eigen::Vector3d>(), s[2].cast<Eigen::Vector3d>(),
+                        s[3].cast<Eigen::Vector3d>(), s[4].cast<double>(), s[5].cast<double>(),
+                        s[6].cast<bool>()});
+      });
   module.def("modes", &modes, py::arg("case"), py::arg("functions"));
   module.def("run_into", &run_into, py::arg("case"), py::arg("functions"), py::arg("out"), py::arg("resume"),
              py::arg("progress"));
@@ -127,10 +146,10 @@ void bind_simulations(py::module_& module) {
           "time", [](const Checkpoint& c) { return c.state.t; })
       .def(
           "save", [](const Checkpoint& c, const std::filesystem::path& file) { write_checkpoint(file, c); },
-          py::arg("file"), py::call_guard<py::gil_scoped_release>())
+          py::arg("file"), py::call_guard<WithoutLock>())
       .def_static(
           "load", [](const std::filesystem::path& file) { return read_checkpoint(file); }, py::arg("file"),
-          py::call_guard<py::gil_scoped_release>());
+          py::call_guard<WithoutLock>());
   py::class_<LiveRun, std::shared_ptr<LiveRun>>(module, "LiveRun", "A run that is taken step by step.",
                                                 py::dynamic_attr())
       .def_static(
@@ -148,11 +167,22 @@ void bind_simulations(py::module_& module) {
       .def_property_readonly("recording", &LiveRun::recording)
       .def("now", &LiveRun::now)
       .def("checkpoint", &LiveRun::checkpoint)
+      .def("values", &LiveRun::values, py::arg("names"))
+      .def("set_signal", &LiveRun::set_signal, py::arg("signal"), py::arg("value"), py::arg("slope"),
+           py::arg("until"))
       .def("change_load", &LiveRun::change_load, py::arg("number"), py::arg("value"))
+      .def("extremes",
+           [](const LiveRun& run) {
+             py::list list;
+             for (const RunExtreme& each : run.extremes())
+               list.append(py::dict("quantity"_a = each.quantity, "unit"_a = each.unit,
+                                    "value"_a = each.value, "s [m]"_a = each.s, "time [s]"_a = each.time));
+             return list;
+           })
       .def("report", [](const LiveRun& run) {
         const BuiltCase& of = *run.of();
-        const SimulationReport report = run.report();
-        return report_facts(report, of, run_warnings(of.case_file, of.built(), report, run.checks()));
+        const auto [report, warnings] = run.report();
+        return report_facts(report, of, warnings);
       });
 }
 

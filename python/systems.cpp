@@ -29,7 +29,10 @@ class Equations {
         std::make_shared<const BeamModel>(with_laws(c.built(), functions, c.case_file.analysis)));
     return {*drawn.system, drawn.state};
   }
-  static Equations of(const LiveRun& run) { return {run.simulation().system(), run.simulation().state()}; }
+  static Equations of(const LiveRun& run) {
+    return run.between_steps(
+        [](const Simulation& simulation) { return Equations(simulation.system(), simulation.state()); });
+  }
 
   const BeamSystem& system() const { return system_; }
   const State& state() const { return state_; }

@@ -15,9 +15,10 @@ class HeldDirection {
         dofs_(point_.dofs(at)),
         across_(directions_across<D>(at.structure.beams[beam].curve.tangent(s))) {}
 
-  static constexpr ConstraintOffers offers{.couple = true};
+  static constexpr ConstraintOffers offers{.constant = true, .couple = true};
   static constexpr int rows = D - 1;
   const std::vector<int>& dofs() const { return dofs_; }
+  bool is_constant() const { return point_.is_fixed(); }
 
   /// The couple of the clamp on the beam for its multipliers [N m].
   Eigen::Vector3d couple(const MeshedBeams<D>& at, const State& state,

@@ -12,8 +12,10 @@ namespace nurbeam {
 /// The hooks that a constraint in a mesh offers besides rows, dofs() and terms(at, state, y), each with its
 /// function in brackets.
 struct ConstraintOffers {
-  bool linear = false;     ///< the constraint has no Hessian
-  bool rates = false;      ///< (rate(t), acceleration(t)) dg/dt and d2g/dt2 at fixed q
+  bool linear = false;  ///< the constraint has no Hessian
+  bool rates = false;   ///< (rate(t), acceleration(t)) dg/dt and d2g/dt2 at fixed q
+  bool constant =
+      false;  ///< (is_constant()) whether the gradient is equal in all states; linear ones need not say
   bool curvature = false;  ///< (curvature(at, state, v)) v . d2g/dq2 v, cheaper than by the Hessian
   bool force = false;      ///< (force(y)) force on the beam for its multipliers; without this hook it is -y
   bool couple = false;     ///< (couple(at, state, y)) couple on the beam, in place of a force
@@ -30,6 +32,7 @@ namespace hooks {
 
 NURBEAM_HOOK(rate);
 NURBEAM_HOOK(acceleration);
+NURBEAM_HOOK(is_constant);
 NURBEAM_HOOK(curvature);
 NURBEAM_HOOK(force);
 NURBEAM_HOOK(couple);
@@ -71,6 +74,8 @@ consteval bool keeps_constraint_offers() {
   };
   return keeps_word(o.rates, names_rate<C>, has_rate) &&
          keeps_word(o.rates, names_acceleration<C>, has_acceleration) &&
+         keeps_word(
+             o.constant, names_is_constant<C>, requires(const C& c) { bool(c.is_constant()); }) &&
          keeps_word(o.curvature, names_curvature<C>, has_curvature) &&
          keeps_word(o.force, names_force<C>, has_force) &&
          keeps_word(o.couple, names_couple<C>, has_couple) &&

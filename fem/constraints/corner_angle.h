@@ -2,6 +2,7 @@
 #include "fem/constraints/constraint_offers.h"
 #include "fem/constraints/held_angle.h"
 #include "fem/constraints/joined_sections.h"
+#include "fem/constraints/passed_roll.h"
 #include "fem/mesh/binding.h"
 
 namespace nurbeam {
@@ -17,7 +18,7 @@ class CornerAngle {
   }
 
   /// Binds the constraints of the rigid corners of all beams: the angle, or with torsion the relative
-  /// orientation of both sections.
+  /// orientation of both sections. Binds those of kinks with torsion, which goes over them.
   template <class Add>
   static void bind(const Binding<D>& binding, Add&& add) {
     for (std::size_t b = 0; b < binding.at.mesh.nodes.size(); ++b) bind_corners(binding.at, b, add);
@@ -45,7 +46,10 @@ class CornerAngle {
     const int first = at.mesh.first_span[b], spans = at.mesh.first_span[b + 1] - first;
     for (int i = 0; i < static_cast<int>(at.mesh.nodes[b].size()); ++i) {
       const MeshNode& node = at.mesh.nodes[b][i];
-      if (node.home < 0 || beam.home[node.home].kind != NodeKind::rigid) continue;
+      const NodeKind kind = node.home < 0 ? NodeKind::smooth : beam.home[node.home].kind;
+      if constexpr (D == 3)
+        if (kind == NodeKind::kink && beam.has_torsion()) add(PassedRoll(at, static_cast<int>(b), i));
+      if (kind != NodeKind::rigid) continue;
       if constexpr (D == 3)
         if (beam.has_torsion()) {
           add(JoinedSections(NodeSection(at.elements[first + (i + spans - 1) % spans], 1),

@@ -20,9 +20,10 @@ class JoinedPoints {
     distance_ = distance.head<D>();
   }
 
-  static constexpr ConstraintOffers offers{};
+  static constexpr ConstraintOffers offers{.constant = true};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return points_.dofs; }
+  bool is_constant() const { return points_.a.is_fixed() && points_.b.is_fixed(); }
 
   ConstraintTerms<D> terms(const MeshedBeams<D>& at, const State& state,
                            const typename ConstraintTerms<D>::Multipliers* y) const {

@@ -4,13 +4,16 @@
 
 namespace nurbeam {
 
-/// The section goes over a kink at a sliding body by parallel transport. The section behind the kink is not
-/// turned about the tangent against the one before it: d2_a . d1_b - d1_a . d2_b = 0 (SectionTurn::S). 1 row;
-/// coordinates (r_s, angle) of both sides. Torsion so passes the body, and bending does not.
+/// The section goes over a kink, of a node or at a sliding body, by parallel transport. The section behind
+/// the kink is not turned about the tangent against the one before it: d2_a . d1_b - d1_a . d2_b = 0
+/// (SectionTurn::S). 1 row; coordinates (r_s, angle) of both sides. Torsion so passes the body, and bending
+/// does not.
 class PassedRoll {
  public:
   PassedRoll(const MeshedBeams<3>& at, int rider)
-      : PassedRoll(sides(at, at.structure.riders[rider].beam, at.mesh.riders[rider].node)) {}
+      : PassedRoll(at, at.structure.riders[rider].beam, at.mesh.riders[rider].node) {}
+  /// `node`: its index among those of the beam.
+  PassedRoll(const MeshedBeams<3>& at, int beam, int node) : PassedRoll(sides(at, beam, node)) {}
 
   static constexpr ConstraintOffers offers{};
   static constexpr int rows = 1;

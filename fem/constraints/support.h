@@ -23,7 +23,7 @@ class HeldPosition {
         drawn_(at.structure.beams[beam].curve.position(s).template head<D>()),
         motion_(motion) {}
 
-  static constexpr ConstraintOffers offers{.rates = true, .work = true};
+  static constexpr ConstraintOffers offers{.rates = true, .constant = true, .work = true};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
 
@@ -38,6 +38,8 @@ class HeldPosition {
     if (y) r.add_hessian(*y, 1, shape.nodes, terms.hessian);
     return terms;
   }
+
+  bool is_constant() const { return point_.is_fixed(); }
 
   /// Work between two states on one mesh [J]: the mean force over the displacement.
   double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
@@ -66,11 +68,12 @@ template <int D, class Add>
 void bind(const Support& support, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Add&& add) {
   if (support.guide) return add(GuidedPlace<D>(at, drawn, support));
   add(HeldPosition<D>(at, drawn, support.beam, support.s, support.motion ? &*support.motion : nullptr));
-  if (support.clamped) add(HeldDirection<D>(at, drawn, support.beam, support.s));
+  if (support.holds_slope()) add(HeldDirection<D>(at, drawn, support.beam, support.s));
   if constexpr (D == 3) {
     if (!at.structure.beams[support.beam].has_torsion()) return;
-    if (support.clamped) add(ClampedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
-    if (support.fork) add(ForkedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
+    if (support.holds_slope()) add(ClampedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
+    if (support.fork || (support.clamped && support.sharp))
+      add(ForkedRoll(NodeSection::at(at, drawn, support.beam, support.s)));
     if (support.axis) add(HeldAxis(NodeSection::at(at, drawn, support.beam, support.s), *support.axis));
   }
 }

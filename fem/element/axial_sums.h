@@ -10,8 +10,15 @@
 
 namespace nurbeam {
 
+/// A rule as a matrix, one row an end.
+inline Eigen::Matrix<double, 2, 5> matrix_of(const AssumedEnds<double>& ends) {
+  Eigen::Matrix<double, 2, 5> rule;
+  for (int i = 0; i < 5; ++i) rule.col(i) << ends.a[i], ends.b[i];
+  return rule;
+}
+
 /// The numbers that give the assumed axial strain of an element, y = (I, eps_A, eps_B, l) with I = int eps
-/// ds, and their gradient in q; eps_A and eps_B are the strains of the nodal slopes.
+/// ds, and their gradient in q. eps_A and eps_B are the strains of the nodal slopes, until take_ends().
 template <int D>
 struct AxialSums {
   using Layout = ElementLayout<D>;
@@ -38,6 +45,16 @@ struct AxialSums {
     y[0] += weight * eps;
     y_q.row(0) += weight * rs.value.transpose() * rs.gradient + eps * weight_q.transpose();
   }
+  /// Takes the end values of the assumed strain by their rule. `moments`: e_0, e_1 and e_2 of the strain,
+  /// with gradients by rows.
+  void take_ends(const OwnSlopes& own, const Eigen::Vector3d& moments,
+                 const Eigen::Matrix<double, 3, n>& moments_q) {
+    const Eigen::Matrix<double, 2, 5> rule = matrix_of(assumed_ends(own));
+    y.segment<2>(1) = (rule * (Eigen::Matrix<double, 5, 1>() << y[1], y[2], moments).finished()).eval();
+    y_q.template middleRows<2>(1) =
+        (rule * (Eigen::Matrix<double, 5, n>() << y_q.template middleRows<2>(1), moments_q).finished())
+            .eval();
+  }
   /// Subtracts a uniform free strain from all sums: I - int eps_free ds, ...
   void take_out(double free_strain) {
     y[0] -= free_strain * y[3];
@@ -45,19 +62,21 @@ struct AxialSums {
     y_q.row(0) -= free_strain * y_q.row(3);
   }
 
-  /// `free`: the strain that was subtracted.
-  AssumedAxialEnergy energy(const BeamProperties& beam, double free) const {
-    return assumed_axial_energy<GaussRule>(beam, y, free);
+  /// `free`: the strain that was subtracted; `buckling`: see axial_means.
+  AssumedAxialEnergy energy(const BeamProperties& beam, double free, double buckling) const {
+    return assumed_axial_energy<GaussRule>(beam, y, free, buckling);
   }
-  void add_force(const BeamProperties& beam, double free, ElementVector<D>& f) const {
-    f += y_q.transpose() * energy(beam, free).gradient;
+  void add_force(const AssumedAxialEnergy& U, ElementVector<D>& f) const {
+    f += y_q.transpose() * U.gradient;
   }
-  void add_tangent(const BeamProperties& beam, double free, double k, const ElementMatrix<D>& I_qq,
-                   ElementMatrix<D>& K) const {
-    const AssumedAxialEnergy U = energy(beam, free);
+  /// `moments_qq`: second derivatives of e_0, e_1 and e_2 for a rule with own slopes, else null.
+  void add_tangent(const AssumedAxialEnergy& U, double k, const ElementMatrix<D>& I_qq, const OwnSlopes& own,
+                   const std::array<ElementMatrix<D>, 3>* moments_qq, ElementMatrix<D>& K) const {
     K += k * (y_q.transpose() * U.hessian() * y_q + U.gradient[0] * I_qq);
-    for (const int end : {0, 1})
-      K.diagonal().template segment<D>(Layout::slope(end)).array() += k * U.gradient[1 + end];
+    const Eigen::Matrix<double, 5, 1> on =
+        matrix_of(assumed_ends(own)).transpose() * U.gradient.template segment<2>(1);
+    for (const int end : {0, 1}) K.diagonal().template segment<D>(Layout::slope(end)).array() += k * on[end];
+    for (int i = 0; moments_qq && i < 3; ++i) K += (k * on[2 + i]) * (*moments_qq)[i];
   }
 };
 

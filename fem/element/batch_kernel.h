@@ -15,15 +15,17 @@ struct ElementBatch<D>::Kernel {
   Lanes8 side;
   Formulas formulas;
 
-  NURBEAM_WITHIN Kernel(const ElementBatch& of, double free_strain, const Eigen::VectorXd& sides)
+  NURBEAM_WITHIN Kernel(const ElementBatch& of, double free_strain, const State& state)
       : batch(of),
-        side(sides.size() > 0 ? gathered(sides.data(), of.sides_) : Lanes8{}),
+        side(state.sides.size() > 0 ? gathered(state.sides.data(), of.sides_) : Lanes8{}),
         formulas{.beam = *of.properties_,
                  .sums = of.numbers_->sum,
                  .points = of.numbers_->at.data(),
                  .count = FixedLanes::points,
                  .free_strain = free_strain,
-                 .side = sides.size() > 0 ? &side : nullptr} {}
+                 .side = state.sides.size() > 0 ? &side : nullptr,
+                 .own_slopes = of.own_slopes_,
+                 .stabilisation = state.stabilisation} {}
   Kernel(const Kernel&) = delete;
   Kernel& operator=(const Kernel&) = delete;
 

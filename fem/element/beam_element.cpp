@@ -6,6 +6,7 @@
 
 #include "fem/element/axial_sums.h"
 #include "fem/element/moving_point.h"
+#include "fem/material/fold_resistance.h"
 
 namespace nurbeam {
 
@@ -19,19 +20,27 @@ Eigen::Vector4d row(const std::array<double, 4>& values) {
 
 template <int D>
 BeamElement<D>::BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart,
-                            double s_a, double s_b, Ends ends)
-    : curve_(&curve), properties_(&properties), chart_(std::move(chart)), ends_(ends) {
+                            double s_a, double s_b, Ends ends, const AxialRule& axial_rule)
+    : curve_(&curve),
+      properties_(&properties),
+      chart_(std::move(chart)),
+      ends_(ends),
+      axial_rule_(axial_rule) {
   if (!fixed() && curve.metric() == Metric::label)
     throw std::invalid_argument("an element whose ends move needs the metric of the drawn curve");
   if (!fixed()) return;
   const auto own = std::make_shared<Own>();
   int point = 0;
   for_each_point(s_a, s_b, [&](const ShapeFunctions<double>& shape, double s, double weight) {
-    add_point(point++ % GaussRule::size, shape, weight, curve.strain(s), *own);
+    const StrainCoefficients<double> in_strain = strain_weights(s, weight, s_a, s_b - s_a);
+    add_point(point++ % GaussRule::size, shape, weight, curve.strain(s), in_strain, *own);
   });
   own->sums.length = s_b - s_a;
   own->sums.strain0[1] = curve.strain(s_a);
   own->sums.strain0[2] = curve.strain(s_b, true);
+  own->sums.ends = assumed_ends(own_slopes());
+  own->sums.buckling_strain = axial_rule_.buckling_strain;
+  own->sums.fold_resistance = axial_rule_.fold_resistance;
   own_ = own;
 }
 
@@ -48,7 +57,7 @@ void BeamElement<D>::stand_beside(std::shared_ptr<FixedLanes> others, int lane) 
 // Adds the next Gauss point of a fixed element; `point`: its number in its part.
 template <int D>
 void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0,
-                               Own& own) const {
+                               const StrainCoefficients<double>& in_strain, Own& own) const {
   const double mass = properties_->mass_per_length * weight;
   for (int k = 0; k < 4; ++k) {
     own.sums.load_factor[k] += weight * shape.value[k];
@@ -58,6 +67,7 @@ void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, d
     }
   }
   own.sums.strain0[0] += weight * eps0;
+  for (const int k : {3, 4}) own.sums.strain0[k] += in_strain[k] * eps0;
   if (point == 0) own.packs.emplace_back();
   PointPack& pack = own.packs.back();
   // The last point fills the lanes beyond it.
@@ -65,6 +75,10 @@ void BeamElement<D>::add_point(int point, const ShapeFunctions<double>& shape, d
   for (int k = 0; k < 4; ++k) {
     pack.S1[k].segment(point, more) = shape.d1[k];
     pack.S2[k].segment(point, more) = shape.d2[k];
+  }
+  for (int k = 0; k < 4; ++k) {
+    pack.in_strain[k].segment(point, more) = 0;
+    pack.in_strain[k][point] = in_strain[k + 1];
   }
   pack.weight.segment(point, more) = 0;
   pack.weight[point] = weight;
@@ -104,6 +118,17 @@ Eigen::Matrix4d BeamElement<D>::stretch(const ElementVector<D>& q) const {
 }
 
 template <int D>
+Eigen::Matrix4d BeamElement<D>::stretch_coefficient(const ElementVector<D>& q, int k) const {
+  const double s_a = q[ElementLayout<D>::place(0)], length = q[ElementLayout<D>::place(1)] - s_a;
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  for_each_point(s_a, s_a + length, [&](const ShapeFunctions<double>& shape, double s, double weight) {
+    const Eigen::Vector4d S1 = row(shape.d1);
+    sum += strain_weights(s, weight, s_a, length)[static_cast<std::size_t>(k)] * S1 * S1.transpose();
+  });
+  return sum;
+}
+
+template <int D>
 double BeamElement<D>::strain_of_axis(const ElementVector<D>& q) const {
   const double strain0 = fixed() ? with_sums([](const FixedSums& sums) { return sums.strain0[0]; }) : 0;
   return (q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)]) / 2 + strain0;
@@ -119,8 +144,7 @@ TautViscosity<D> BeamElement<D>::taut_viscosity(const ElementState<D>& x) const 
 
 template <int D>
 double BeamElement<D>::axial_mismatch(const ElementVector<D>& q) const {
-  const Eigen::Vector4d y = axial_sums(q).y;
-  const AssumedStrain assumed(y[0], y[1], y[2], y[3]);
+  const AssumedStrain assumed = ends_and_mean(q);
   if (is_one_part()) return fixed_axial_mismatch(q, assumed);
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
   double largest = 0;
@@ -133,23 +157,38 @@ double BeamElement<D>::axial_mismatch(const ElementVector<D>& q) const {
 }
 
 template <int D>
-double BeamElement<D>::quartic_strain(const ElementVector<D>& q) const {
+StrainCoefficients<double> BeamElement<D>::strain_coefficients(const ElementVector<D>& q) const {
   const ElementNodes<D> e = ElementLayout<D>::nodes(q);
   const double s_a = q[ElementLayout<D>::place(0)], length = q[ElementLayout<D>::place(1)] - s_a;
-  double sum = 0;
+  StrainCoefficients<double> sum{};
   for_each_point(s_a, s_a + length, [&](const ShapeFunctions<double>& shape, double s, double weight) {
     const double strain = ((e * row(shape.d1)).squaredNorm() - 1) / 2 - curve_->strain(s);
-    const double x = std::pow(2 * (s - s_a) / length - 1, 2);
-    sum += weight / length * strain * (35 * x * x - 30 * x + 3) / 8;
+    const StrainCoefficients<double> weights = strain_weights(s, weight, s_a, length);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weights[k] * strain;
   });
-  return 9 * sum;
+  return sum;
+}
+
+template <int D>
+double BeamElement<D>::strain_residue(const ElementVector<D>& q) const {
+  const StrainCoefficients<double> of = strain_coefficients(q);
+  return std::sqrt(squared_residue(of[3], of[4]));
+}
+
+template <int D>
+AssumedStrain BeamElement<D>::ends_and_mean(const ElementVector<D>& q) const {
+  const Eigen::Vector4d y = axial_sums(q).y;
+  if (own_slopes().count() == 0) return {y[0], y[1], y[2], y[3]};
+  const StrainCoefficients<double> of = strain_coefficients(q);
+  const AssumedEnds<double> ends = assumed_ends(own_slopes());
+  const std::array<double, 5> values{y[1], y[2], of[0], of[1], of[2]};
+  return {y[0], dot(ends.a, values), dot(ends.b, values), y[3]};
 }
 
 template <int D>
 std::optional<AssumedStrain> BeamElement<D>::assumed_strain(const ElementVector<D>& q) const {
   if (!assumes_strain()) return std::nullopt;
-  const Eigen::Vector4d y = axial_sums(q).y;
-  return AssumedStrain(y[0], y[1], y[2], y[3]);
+  return ends_and_mean(q);
 }
 
 template <int D>
@@ -164,7 +203,10 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
                                 Jet::variable(x.q[Layout::place(1)], 1)};
   const MovingBasis basis(*curve_, chart_, ends[0], ends[1], Derivatives::one);
   AxialSums<D> axial(x.q);
-  Eigen::Vector3d axial_rate = Eigen::Vector3d::Zero();
+  double stretch_rate = 0;
+  std::array<double, 5> values{axial.y[1], axial.y[2]}, rates{};  // of AssumedEnds
+  std::array<double, 2> residue{}, residue_rate{};
+  const double s_a = ends[0].value(), length = ends[1].value() - s_a;
   const double eta = taut_viscosity(x).value;
   for_each_place(ends[0], ends[1], [&](const Jet& s, const Jet& weight) {
     const MovingRows rows = basis.rows_at(s);
@@ -181,22 +223,35 @@ ElementEnergy BeamElement<D>::energy(const ElementState<D>& x, const Vector& loa
     sum.axial += omega * density.axial;
     sum.bending += omega * density.bending;
     sum.external -= omega * load.dot(r);
-    axial.y[0] += omega * (rs.squaredNorm() - 1) / 2;
+    const double strain = (rs.squaredNorm() - 1) / 2;
+    axial.y[0] += omega * strain;
+    const StrainCoefficients<double> weights = strain_weights(s.value(), omega, s_a, length);
+    for (std::size_t k = 0; k < 3; ++k) values[2 + k] += weights[k] * strain;
+    for (std::size_t k = 0; k < 2; ++k) residue[k] += weights[3 + k] * strain;
     sum.dissipation += omega * mass_viscosity() * v.squaredNorm();
     if (!(properties_->damping > 0 || eta > 0)) return;
     Eigen::Matrix<double, 2 * D, 1> rate;
     rate << rate_of(rows.rs) - rss * s_rate, rate_of(rows.rss) - e * rows.rsss * s_rate;
     sum.dissipation += omega * damping_response<D>(*properties_, rs, rss, rate, eta).power;
-    axial_rate[0] += omega * rs.dot(rate.template head<D>());
+    const double strain_rate = rs.dot(rate.template head<D>());
+    stretch_rate += omega * strain_rate;
+    for (std::size_t k = 0; k < 3; ++k) rates[2 + k] += weights[k] * strain_rate;
+    for (std::size_t k = 0; k < 2; ++k) residue_rate[k] += weights[3 + k] * strain_rate;
   });
   if (!assumes_strain()) return sum;
+  const AssumedEnds<double> rule = assumed_ends(own_slopes());
+  axial.y.template segment<2>(1) << dot(rule.a, values), dot(rule.b, values);
   axial.take_out(x.free_strain);
-  sum.axial = axial.energy(*properties_, x.free_strain).value;
+  const FoldStresses<double> fold(*properties_, x.stabilisation * axial_rule_.fold_resistance, residue);
+  sum.axial =
+      axial.energy(*properties_, x.free_strain, axial_rule_.buckling_strain).value + length * fold.energy;
   if (!(properties_->damping > 0)) return sum;
   for (const int end : {0, 1}) {
     const Vector rss = e * basis.rows_at(ends[end]).rss.value;
-    axial_rate[1 + end] = e.col(2 * end + 1).dot(e_rate.col(2 * end + 1) - rss * w[end]);
+    rates[static_cast<std::size_t>(end)] = e.col(2 * end + 1).dot(e_rate.col(2 * end + 1) - rss * w[end]);
   }
+  const Eigen::Vector3d axial_rate(stretch_rate, dot(rule.a, rates), dot(rule.b, rates));
+  sum.dissipation += length * dot(fold.viscous_force(residue_rate), residue_rate);
   sum.dissipation += axial_rate.dot(AssumedAxialDamping(*properties_, axial.y[3], axial_rate).stress);
   return sum;
 }

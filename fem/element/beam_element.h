@@ -32,6 +32,15 @@ struct ElementEnergy {
   }
 };
 
+/// The rule by which the assumed axial strain of an element follows from the pointwise one, the compressive
+/// strain at which it buckles, if its beam does, and the factor on its FoldResistance.
+struct AxialRule {
+  OwnSlopes own_slopes = {};
+  double buckling_strain = 0, fold_resistance = 1;
+
+  bool operator==(const AxialRule&) const = default;
+};
+
 /// Whether the ends of an element move over the material.
 enum class Ends { fixed, moving };
 
@@ -56,7 +65,7 @@ class BeamElement {
   /// With fixed ends everything that depends on s_a, s_b is computed here, once. `curve` and `properties`
   /// must outlive the element. Throws std::invalid_argument for moving ends on a curve without metric.
   BeamElement(const ReferenceCurve& curve, const BeamProperties& properties, Chart chart, double s_a,
-              double s_b, Ends ends);
+              double s_b, Ends ends, const AxialRule& axial_rule = {});
 
   /// This element on another curve that is drawn alike from end to end, with equal properties.
   BeamElement on(const ReferenceCurve& curve, const BeamProperties& properties) const {
@@ -70,6 +79,8 @@ class BeamElement {
   const BeamProperties& properties() const { return *properties_; }
   const Chart& chart() const { return chart_; }
   bool fixed() const { return ends_ == Ends::fixed; }
+  const AxialRule& axial_rule() const { return axial_rule_; }
+  const OwnSlopes& own_slopes() const { return axial_rule_.own_slopes; }
   /// Whether the element has fixed ends and lies on one part of the drawing, so that others can stand beside
   /// it.
   bool is_one_part() const { return beside_ || (own_ && own_->packs.size() == 1); }
@@ -117,14 +128,19 @@ class BeamElement {
   /// int S'_k S'_l ds for the end positions in q: int eps ds of the pointwise axial strain is e S e / 2 less
   /// strain_of_axis(q), e the nodes.
   Eigen::Matrix4d stretch(const ElementVector<D>& q) const;
+  /// The matrix G of the Legendre coefficient e_k of the strain, k = 1..4: e G e / 2, e the nodes; without
+  /// that of the drawing.
+  Eigen::Matrix4d stretch_coefficient(const ElementVector<D>& q, int k) const;
   /// int (1/2 + eps_0) ds for the end positions in q [m].
   double strain_of_axis(const ElementVector<D>& q) const;
   /// Maximum difference of the pointwise axial strain from the assumed one, at the Gauss points. It tells how
   /// much bending between the nodes the element cannot follow without stretching.
   double axial_mismatch(const ElementVector<D>& q) const;
-  /// The coefficient of the fourth Legendre polynomial in the pointwise axial strain: the part that the
-  /// assumed strain does not see, except for an odd part that moves no position.
-  double quartic_strain(const ElementVector<D>& q) const;
+  /// The Legendre coefficients of the pointwise axial strain less that of the drawing. The fourth is the part
+  /// that the assumed strain does not see, except for an odd part that moves no position.
+  StrainCoefficients<double> strain_coefficients(const ElementVector<D>& q) const;
+  /// R of FoldResistance: how far the element has folded.
+  double strain_residue(const ElementVector<D>& q) const;
   /// The assumed axial strain; nothing where the strain is pointwise.
   std::optional<AssumedStrain> assumed_strain(const ElementVector<D>& q) const;
 
@@ -173,10 +189,11 @@ class BeamElement {
   }
   template <class T, class Visit>
   void for_each_place(const T& s_a, const T& s_b, Visit&& visit) const;
-  void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0, Own& own) const;
+  void add_point(int point, const ShapeFunctions<double>& shape, double weight, double eps0,
+                 const StrainCoefficients<double>& in_strain, Own& own) const;
   // Calls use(kernel), the FixedKernel of an element with fixed ends.
   template <class Use>
-  auto with_kernel(double free_strain, std::optional<bool> taut, const Use& use) const;
+  auto with_kernel(double free_strain, std::optional<bool> taut, double stabilisation, const Use& use) const;
   ElementVector<D> fixed_force(const ElementState<D>& x, const Vector& load) const;
   ElementEnergy fixed_energy(const ElementState<D>& x, const Vector& load) const;
   ElementMatrix<D> fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const;
@@ -184,6 +201,7 @@ class BeamElement {
   double fixed_length(const ElementVector<D>& q) const;
   double fixed_axial_mismatch(const ElementVector<D>& q, const AssumedStrain& assumed) const;
   bool assumes_strain() const;
+  AssumedStrain ends_and_mean(const ElementVector<D>& q) const;
   double mass_viscosity() const { return properties_->mass_damping * properties_->mass_per_length; }
   TautViscosity<D> taut_viscosity(const ElementState<D>& x) const;
 
@@ -191,6 +209,7 @@ class BeamElement {
   const BeamProperties* properties_;
   Chart chart_;
   Ends ends_;
+  AxialRule axial_rule_;
   int lane_ = 0;  // lane in beside_
   // For fixed elements only, one of own_ and beside_.
   std::shared_ptr<const Own> own_;

@@ -1,6 +1,8 @@
 // The forces of many fixed elements at once, for the widest registers that the processor has.
 #include "fem/element/element_batch.h"
 
+#include <algorithm>
+
 #include "fem/element/batch_kernel.h"
 
 namespace nurbeam {
@@ -9,50 +11,50 @@ template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces,
                                                              std::ptrdiff_t stride) const {
-  Kernel(*this, free_strain, state.sides).add_forces(state, load, forces, stride);
+  Kernel(*this, free_strain, state).add_forces(state, load, forces, stride);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_forces(const State& state, const Vector& load,
                                                              double free_strain, double* forces,
                                                              std::ptrdiff_t stride) const {
-  Kernel(*this, free_strain, state.sides).add_forces(state, load, forces, stride);
+  Kernel(*this, free_strain, state).add_forces(state, load, forces, stride);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<2>::lanes> ElementBatch<2>::energies(
     const State& state, const Vector& load, double free_strain) const {
-  return Kernel(*this, free_strain, state.sides).energies(state, load);
+  return Kernel(*this, free_strain, state).energies(state, load);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<ElementEnergy, ElementBatch<3>::lanes> ElementBatch<3>::energies(
     const State& state, const Vector& load, double free_strain) const {
-  return Kernel(*this, free_strain, state.sides).energies(state, load);
+  return Kernel(*this, free_strain, state).energies(state, load);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<double, ElementBatch<2>::lanes> ElementBatch<2>::lengths(
     const State& state) const {
-  return Kernel(*this, 0, state.sides).lengths(state);
+  return Kernel(*this, 0, state).lengths(state);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR std::array<double, ElementBatch<3>::lanes> ElementBatch<3>::lengths(
     const State& state) const {
-  return Kernel(*this, 0, state.sides).lengths(state);
+  return Kernel(*this, 0, state).lengths(state);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::tangents(const State& state, double free_strain,
                                                            const TangentWeights& w, Tangents& K) const {
-  Kernel(*this, free_strain, state.sides).tangents(state, w, K);
+  Kernel(*this, free_strain, state).tangents(state, w, K);
 }
 
 template <>
 NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::tangents(const State& state, double free_strain,
                                                            const TangentWeights& w, Tangents& K) const {
-  Kernel(*this, free_strain, state.sides).tangents(state, w, K);
+  Kernel(*this, free_strain, state).tangents(state, w, K);
 }
 
 template <int D>
@@ -92,6 +94,7 @@ void ElementBatch<D>::add(const BeamElement<D>& element, const std::array<int, e
   }
   for (int k = 0; k < nodal; ++k) same_dofs_ = same_dofs_ && dofs_[k][count_] == dofs_[k][0];
   ++count_;
+  own_slopes_ = std::max(own_slopes_, element.own_slopes().count());
   forces_stand_beside_ = is_full() && same_dofs_;
   for (int i = 0; i < count_; ++i)
     forces_stand_beside_ = forces_stand_beside_ && forces_at_[i] == forces_at_[0] + i;

@@ -22,6 +22,7 @@ class ElementBatch {
 
   /// An empty batch; `properties` must outlive it.
   explicit ElementBatch(const BeamProperties& properties);
+  bool has(const BeamProperties& properties) const { return *properties_ == properties; }
   bool is_full() const { return count_ == lanes; }
   int count() const { return count_; }
   /// Adds an element with the same properties. `dofs`: its global coordinates; `slope_offset`: offset of the
@@ -43,7 +44,10 @@ class ElementBatch {
   std::array<double, lanes> lengths(const State& state) const;
 
   /// Whether add_number_rates can take elements of these properties.
-  static bool has_number_rates(const BeamProperties& properties) { return !(properties.tension_damping > 0); }
+  static bool has_number_rates(const BeamProperties& properties) {
+    return !(properties.tension_damping > 0) && properties.compression == Compression::full &&
+           !std::holds_alternative<ForceOverStretch>(properties.law);
+  }
   /// Adds to `rates` the derivatives of a sum by the numbers of the elements: the sum of their forces, each
   /// times the multiplier of its coordinate. `multipliers`: of all coordinates. Precondition:
   /// has_number_rates of the properties.
@@ -67,7 +71,7 @@ class ElementBatch {
 
   const BeamProperties* properties_;
   std::shared_ptr<FixedLanes> numbers_;  ///< of the elements: shared with them, or put together here
-  int count_ = 0;
+  int count_ = 0, own_slopes_ = 0;       ///< own_slopes_: the largest OwnSlopes::count() of the elements
   std::array<std::array<int, lanes>, nodal> dofs_ = {};
   std::array<int, lanes> sides_ = {};
   std::array<std::ptrdiff_t, lanes> forces_at_ = {};

@@ -30,7 +30,8 @@ typename Kernel<D>::Load components_of(const Eigen::Matrix<double, D, 1>& load) 
 
 template <int D>
 template <class Use>
-auto BeamElement<D>::with_kernel(double free_strain, std::optional<bool> taut, const Use& use) const {
+auto BeamElement<D>::with_kernel(double free_strain, std::optional<bool> taut, double stabilisation,
+                                 const Use& use) const {
   const double side = taut.value_or(false);
   const auto call = [&](const FixedSums& sums, const PointPack* packs, std::size_t count) {
     return use(Kernel<D>{.beam = *properties_,
@@ -38,7 +39,9 @@ auto BeamElement<D>::with_kernel(double free_strain, std::optional<bool> taut, c
                          .points = packs,
                          .count = static_cast<int>(count),
                          .free_strain = free_strain,
-                         .side = taut ? &side : nullptr});
+                         .side = taut ? &side : nullptr,
+                         .own_slopes = own_slopes().count(),
+                         .stabilisation = stabilisation});
   };
   if (own_) return call(own_->sums, own_->packs.data(), own_->packs.size());
   const FixedSums sums = beside_->sums(lane_);
@@ -49,7 +52,7 @@ auto BeamElement<D>::with_kernel(double free_strain, std::optional<bool> taut, c
 template <int D>
 ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vector& load) const {
   return with_kernel(
-      x.free_strain, x.taut,
+      x.free_strain, x.taut, x.stabilisation,
       [&](const Kernel<D>& kernel) {
         const Nodes<D> force =
             kernel.force(nodes_of<D>(x.q), nodes_of<D>(x.v), nodes_of<D>(x.a), components_of<D>(load));
@@ -62,7 +65,7 @@ ElementVector<D> BeamElement<D>::fixed_force(const ElementState<D>& x, const Vec
 template <int D>
 ElementEnergy BeamElement<D>::fixed_energy(const ElementState<D>& x, const Vector& load) const {
   return with_kernel(
-      x.free_strain, x.taut,
+      x.free_strain, x.taut, x.stabilisation,
       [&](const Kernel<D>& kernel) {
         const auto sum = kernel.energies(nodes_of<D>(x.q), nodes_of<D>(x.v), components_of<D>(load));
         return ElementEnergy{sum.kinetic, sum.axial, sum.bending, sum.external, sum.dissipation};
@@ -72,7 +75,7 @@ ElementEnergy BeamElement<D>::fixed_energy(const ElementState<D>& x, const Vecto
 template <int D>
 ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const TangentWeights& w) const {
   return with_kernel(
-      x.free_strain, x.taut,
+      x.free_strain, x.taut, x.stabilisation,
       [&](const Kernel<D>& kernel) {
         typename Kernel<D>::Tangents columns;
         kernel.tangents(nodes_of<D>(x.q), nodes_of<D>(x.v), w, columns);
@@ -86,7 +89,7 @@ ElementMatrix<D> BeamElement<D>::fixed_tangent(const ElementState<D>& x, const T
 template <int D>
 AxialSums<D> BeamElement<D>::fixed_axial_sums(const ElementVector<D>& q) const {
   return with_kernel(
-      0, {},
+      0, {}, 0,
       [&](const Kernel<D>& kernel) {
         const Nodes<D> e = nodes_of<D>(q);
         const auto [I_e, I] = kernel.stretch(e);
@@ -101,13 +104,13 @@ AxialSums<D> BeamElement<D>::fixed_axial_sums(const ElementVector<D>& q) const {
 template <int D>
 double BeamElement<D>::fixed_length(const ElementVector<D>& q) const {
   return with_kernel(
-      0, {}, [&](const Kernel<D>& kernel) { return kernel.length(nodes_of<D>(q)); });
+      0, {}, 0, [&](const Kernel<D>& kernel) { return kernel.length(nodes_of<D>(q)); });
 }
 
 template <int D>
 double BeamElement<D>::fixed_axial_mismatch(const ElementVector<D>& q, const AssumedStrain& assumed) const {
   return with_kernel(
-      0, {},
+      0, {}, 0,
       [&](const Kernel<D>& kernel) {
         double largest = 0;
         const PointPack& pack = kernel.points[0];

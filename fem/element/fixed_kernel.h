@@ -4,7 +4,9 @@
 
 #include "fem/element/fixed_lanes.h"
 #include "fem/element/point_strain.h"
+#include "fem/element/strain_function.h"
 #include "fem/material/assumed_axial.h"
+#include "fem/material/fold_resistance.h"
 #include "fem/material/point_law.h"
 #include "solver/system/second_order_system.h"
 
@@ -29,7 +31,8 @@ requires(!requires { T::SizeAtCompileTime; }) NURBEAM_WITHIN const T& total(cons
 template <int D, class P, class E>
 struct FixedKernel {
   static constexpr int nodal = 4 * D;
-  using Nodes = std::array<std::array<E, D>, 4>;
+  using Nodes = NodeNumbers<D, E>;
+  using Function = StrainFunction<D, E>;
   using Tangents = std::array<std::array<E, nodal>, nodal>;  ///< by column and row
   using Load = std::array<double, D>;
 
@@ -43,6 +46,8 @@ struct FixedKernel {
   int count;
   double free_strain;
   const E* side;
+  int own_slopes;        ///< the largest OwnSlopes::count() of the elements
+  double stabilisation;  ///< of the state: factor on FoldResistance
   PointLaw law{beam};
   bool material = beam.curvature == CurvatureMeasure::material;
   bool assumed = beam.axial_strain == AxialStrain::ends_and_mean;
@@ -56,8 +61,9 @@ struct FixedKernel {
     if (beam.mass_damping > 0) add(beam.mass_damping, product(e_rate, sums.mass), force);
     for (int k = 0; k < 4; ++k)
       for (int d = 0; d < D; ++d) force[k][d] -= load[d] * sums.load_factor[k];
-    if (at_points) add_point_forces(e, e_rate, force);
+    const Residue residue = at_points ? add_point_forces(e, e_rate, force) : point_residue(e);
     add_axial_forces(e, e_rate, force);
+    if (folds(residue)) add_fold_forces(e, e_rate, force);
     return force;
   }
 
@@ -67,8 +73,9 @@ struct FixedKernel {
       for (int d = 0; d < D; ++d) sum.external -= load[d] * (e[k][d] * sums.load_factor[k]);
     sum.kinetic = sum_of_products(e_rate, product(e_rate, sums.mass)) / 2.;
     sum.dissipation = 2 * beam.mass_damping * sum.kinetic;
-    if (at_points) add_point_energies(e, e_rate, sum);
+    const Residue residue = at_points ? add_point_energies(e, e_rate, sum) : point_residue(e);
     add_axial_energies(e, e_rate, sum);
+    if (folds(residue)) add_fold_energies(e, e_rate, sum);
     return sum;
   }
 
@@ -88,12 +95,20 @@ struct FixedKernel {
     const bool full = damped && w.stiffness != 0;  // damping has no symmetric stiffness
     set_nodal(w.mass + (damped ? w.damping * beam.mass_damping : 0), full, K);
     if (w.stiffness != 0 || damped) {
-      if (at_points) add_point_tangents(e, e_rate, w, full, K);
+      const Residue residue = at_points ? add_point_tangents(e, e_rate, w, full, K) : point_residue(e);
       if (assumed || damped) add_axial_tangents(e, e_rate, w, full, K);
+      if (folds(residue)) add_fold_tangents(e, e_rate, w, full, K);
     }
     if (full) return;
     for (int j = 0; j < nodal; ++j)
       for (int i = 0; i < j; ++i) K[i][j] = K[j][i];
+  }
+
+  /// Whether FoldResistance acts in one of the elements.
+  NURBEAM_WITHIN bool folds(const Nodes& e) const { return folds(point_residue(e)); }
+  /// FoldResistance at e_3 and e_4.
+  NURBEAM_WITHIN FoldStresses<E> fold_stresses(const Function& third, const Function& fourth) const {
+    return {beam, stabilisation * sums.fold_resistance, {third.value, fourth.value}};
   }
 
   /// sum_k e_k S_k of nodal values.
@@ -149,12 +164,137 @@ struct FixedKernel {
   NURBEAM_WITHIN E end_strain(const Nodes& e, int slope) const {
     return green_strain<D>(e[slope]) - sums.strain0[(slope + 1) / 2] - free_strain;
   }
-  NURBEAM_WITHIN AssumedStrainOf<E> assumed_strain(const Nodes& e, const E& I) const {
-    return {I, end_strain(e, 1), end_strain(e, 3), sums.length};
+  /// The Legendre coefficient e_k of the strain, k = 1..4; no free strain is in it.
+  NURBEAM_WITHIN Function coefficient(const Nodes& e, int k) const {
+    Function c;
+    c.value = zero<E>();
+    for (auto& row : c.by_ee) row.fill(zero<E>());
+    for (int i = 0; i < count; ++i) {
+      const PointNumbers<P>& p = points[i];
+      const P& weight = p.in_strain[k - 1];
+      c.value -= total(P(weight * p.eps0));
+      for (int l = 0; l < 4; ++l)
+        for (int m = 0; m <= l; ++m) c.by_ee[l][m] += total(P(weight * p.S1[l] * p.S1[m]));
+    }
+    for (int l = 0; l < 4; ++l)
+      for (int m = 0; m < l; ++m) c.by_ee[m][l] = c.by_ee[l][m];
+    const Nodes from = from_start(e);
+    c.by_e = product(from, c.by_ee);
+    c.value += sum_of_products(from, c.by_e) / 2.;
+    return c;
+  }
+  /// e_1 and e_2, as far as own slopes need them.
+  using Moments = std::array<Function, 2>;
+  NURBEAM_WITHIN Moments moments(const Nodes& e) const {
+    Moments moments;
+    for (int k = 0; k < 2; ++k)
+      if (k < own_slopes) moments[k] = coefficient(e, k + 1);
+    return moments;
+  }
+  /// (I, a, b) from I, eps_A, eps_B, e_1 and e_2, or from their rates; a, b: the end values of the assumed
+  /// strain.
+  NURBEAM_WITHIN std::array<E, 3> axial_values(const E& I, const E& at_a, const E& at_b, const E& first,
+                                               const E& second) const {
+    if (own_slopes == 0) return {I, at_a, at_b};
+    const std::array<E, 5> of{at_a, at_b, I / sums.length, first, second};
+    return {I, dot(sums.ends.a, of), dot(sums.ends.b, of)};
+  }
+  NURBEAM_WITHIN AssumedStrainOf<E> assumed_strain(const Nodes& e, const E& I, const Moments& moments) const {
+    const std::array<E, 3> x =
+        axial_values(I, end_strain(e, 1), end_strain(e, 3), own_slopes > 0 ? moments[0].value : zero<E>(),
+                     own_slopes > 1 ? moments[1].value : zero<E>());
+    return {x[0], x[1], x[2], sums.length};
+  }
+
+  NURBEAM_WITHIN AxialMeans<E> axial_means(const Nodes& e, const E& I, const Moments& moments) const {
+    return nurbeam::axial_means<GaussRule>(beam, assumed_strain(e, I, moments), free_strain,
+                                           sums.buckling_strain);
+  }
+  /// Rates of (I, a, b).
+  NURBEAM_WITHIN std::array<E, 3> axial_rates(const Nodes& e, const Nodes& e_rate, const Nodes& I_e,
+                                              const Moments& moments) const {
+    std::array<E, 2> moment_rates{zero<E>(), zero<E>()};
+    for (int k = 0; k < own_slopes; ++k) moment_rates[k] = sum_of_products(moments[k].by_e, e_rate);
+    return axial_values(sum_of_products(I_e, e_rate), dot(e[1], e_rate[1]), dot(e[3], e_rate[3]),
+                        moment_rates[0], moment_rates[1]);
+  }
+  NURBEAM_WITHIN AxialMeans<E> axial_damping(const std::array<E, 3>& rates) const {
+    return viscous_axial_means(beam, AssumedStrainOf<E>(rates[0], rates[1], rates[2], sums.length));
   }
 
  private:
-  NURBEAM_WITHIN void add_point_forces(const Nodes& e, const Nodes& e_rate, Nodes& force) const {
+  /// The sums over the points for e_3 and e_4, of |r_s|^2 in place of the strain.
+  using Residue = std::array<P, 2>;
+  NURBEAM_WITHIN void add_residue(const PointNumbers<P>& p, const Components<D, P>& rs,
+                                  Residue& residue) const {
+    if (!assumed) return;
+    const P square = dot(rs, rs);
+    residue[0] += p.in_strain[2] * square;
+    residue[1] += p.in_strain[3] * square;
+  }
+  NURBEAM_WITHIN Residue point_residue(const Nodes& e) const {
+    Residue residue{zero<P>(), zero<P>()};
+    for (int i = 0; i < count && assumed; ++i) add_residue(points[i], combination(e, points[i].S1), residue);
+    return residue;
+  }
+  NURBEAM_WITHIN bool folds(const Residue& residue) const {
+    const E e_3 = total(residue[0]) / 2. - sums.strain0[3], e_4 = total(residue[1]) / 2. - sums.strain0[4];
+    return assumed && stabilisation > 0 &&
+           largest(sums.fold_resistance * squared_residue(e_3, e_4)) >
+               FoldResistance::r_0 * FoldResistance::r_0;
+  }
+
+  NURBEAM_WITHIN void add_fold_forces(const Nodes& e, const Nodes& e_rate, Nodes& force) const {
+    const Function third = coefficient(e, 3), fourth = coefficient(e, 4);
+    const FoldStresses<E> fold = fold_stresses(third, fourth);
+    std::array<E, 2> on = fold.force;
+    if (law.is_damped()) {
+      const std::array<E, 2> viscous =
+          fold.viscous_force({sum_of_products(third.by_e, e_rate), sum_of_products(fourth.by_e, e_rate)});
+      for (int i = 0; i < 2; ++i) on[i] += viscous[i];
+    }
+    add(sums.length * on[0], third.by_e, force);
+    add(sums.length * on[1], fourth.by_e, force);
+  }
+
+  NURBEAM_WITHIN void add_fold_energies(const Nodes& e, const Nodes& e_rate, Energies& sum) const {
+    const Function third = coefficient(e, 3), fourth = coefficient(e, 4);
+    const FoldStresses<E> fold = fold_stresses(third, fourth);
+    sum.axial += sums.length * fold.energy;
+    if (!law.is_damped()) return;
+    const std::array<E, 2> rate{sum_of_products(third.by_e, e_rate), sum_of_products(fourth.by_e, e_rate)};
+    sum.dissipation += sums.length * dot(fold.viscous_force(rate), rate);
+  }
+
+  NURBEAM_WITHIN void add_fold_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
+                                        bool full, Tangents& K) const {
+    const std::array<Function, 2> x{coefficient(e, 3), coefficient(e, 4)};
+    const FoldStresses<E> fold = fold_stresses(x[0], x[1]);
+    std::array<E, 2> force = fold.force;
+    typename FoldStresses<E>::Matrix by_e = fold.stiffness, by_rate = fold.viscosity();
+    const bool damped = law.is_damped();
+    if (damped) {
+      const std::array<E, 2> rate{sum_of_products(x[0].by_e, e_rate), sum_of_products(x[1].by_e, e_rate)};
+      const std::array<E, 2> viscous = fold.viscous_force(rate);
+      const auto viscous_by_e = fold.viscous_force_by_e(rate);
+      for (int i = 0; i < 2; ++i) {
+        force[i] += viscous[i];
+        for (int j = 0; j < 2; ++j) by_e[i][j] += viscous_by_e[i][j];
+      }
+    }
+    StrainStresses<2, E> stresses;
+    for (int i = 0; i < 2; ++i) {
+      stresses.on[i] = w.stiffness * (sums.length * force[i]);
+      for (int j = 0; j < 2; ++j) {
+        stresses.by_x[i][j] = sums.length * (w.stiffness * by_e[i][j] + w.damping * by_rate[i][j]);
+        stresses.by_rate[i][j] = w.stiffness * (sums.length * by_rate[i][j]);
+      }
+    }
+    add_stress_tangents<D>(x, damped ? &e_rate : nullptr, stresses, full, K);
+  }
+
+  NURBEAM_WITHIN Residue add_point_forces(const Nodes& e, const Nodes& e_rate, Nodes& force) const {
+    Residue residue{zero<P>(), zero<P>()};
     for (int i = 0; i < count; ++i) {
       const PointNumbers<P>& p = points[i];
       const Components<D, P> rs = combination(e, p.S1), rss = combination(e, p.S2);
@@ -172,7 +312,9 @@ struct FixedKernel {
         const P on_rs = moment * K.by_rs[d] + stretching * rs[d], on_rss = moment * K.by_rss[d];
         for (int k = 0; k < 4; ++k) force[k][d] += total(P(on_rs * p.S1[k] + on_rss * p.S2[k]));
       }
+      add_residue(p, rs, residue);
     }
+    return residue;
   }
 
   /// Adds the forces of the assumed axial strain, of its damping and of the damping of tension.
@@ -181,13 +323,22 @@ struct FixedKernel {
     const auto [I_e, I] = stretch(e);
     if (beam.tension_damping > 0) add(tension_damping(I).value, product(e_rate, sums.stretch), force);
     if (!assumed) return;
-    const AxialMeans<E> means = axial_means<GaussRule>(beam, assumed_strain(e, I), free_strain);
+    const Moments moments = this->moments(e);
+    const AxialMeans<E> means = axial_means(e, I, moments);
     E on_I = means.by_0, on_a = sums.length * means.by_a, on_b = sums.length * means.by_b;
     if (law.is_damped()) {
-      const AxialMeans<E> damping = axial_damping(axial_rates(e, e_rate, I_e));
+      const AxialMeans<E> damping = axial_damping(axial_rates(e, e_rate, I_e, moments));
       on_I += damping.by_0;
       on_a += sums.length * damping.by_a;
       on_b += sums.length * damping.by_b;
+    }
+    if (own_slopes > 0) {
+      std::array<E, 5> on;
+      for (int i = 0; i < 5; ++i) on[i] = on_a * sums.ends.a[i] + on_b * sums.ends.b[i];
+      on_a = on[0];
+      on_b = on[1];
+      on_I += on[2] / sums.length;
+      for (int k = 0; k < own_slopes; ++k) add(on[3 + k], moments[k].by_e, force);
     }
     add(on_I, I_e, force);
     for (int d = 0; d < D; ++d) {
@@ -196,11 +347,13 @@ struct FixedKernel {
     }
   }
 
-  NURBEAM_WITHIN void add_point_energies(const Nodes& e, const Nodes& e_rate, Energies& sum) const {
+  NURBEAM_WITHIN Residue add_point_energies(const Nodes& e, const Nodes& e_rate, Energies& sum) const {
+    Residue residue{zero<P>(), zero<P>()};
     for (int i = 0; i < count; ++i) {
       const PointNumbers<P>& p = points[i];
       const Components<D, P> rs = combination(e, p.S1), rss = combination(e, p.S2);
       const Curvature<D, P> K(rs, rss, material);
+      add_residue(p, rs, residue);
       const P bent = K.value - p.kappa0;
       P square = bent * bent;
       if constexpr (D == 3) square -= curvature_rounding * curvature_rounding * is_zero(p.kappa0);
@@ -214,6 +367,7 @@ struct FixedKernel {
       if (law.stretches()) power += law.viscous_force(stretching) * stretching;
       sum.dissipation += total(P(p.weight * power));
     }
+    return residue;
   }
 
   NURBEAM_WITHIN void add_axial_energies(const Nodes& e, const Nodes& e_rate, Energies& sum) const {
@@ -222,23 +376,13 @@ struct FixedKernel {
     if (beam.tension_damping > 0)
       sum.dissipation += tension_damping(I).value * sum_of_products(e_rate, product(e_rate, sums.stretch));
     if (!assumed) return;
-    sum.axial += sums.length * axial_means<GaussRule>(beam, assumed_strain(e, I), free_strain).energy;
+    const Moments moments = this->moments(e);
+    sum.axial += sums.length * axial_means(e, I, moments).energy;
     if (!law.is_damped()) return;
-    const AxialRates rates = axial_rates(e, e_rate, I_e);
+    const std::array<E, 3> rates = axial_rates(e, e_rate, I_e, moments);
     const AxialMeans<E> damping = axial_damping(rates);
     sum.dissipation +=
-        damping.by_0 * rates.I + sums.length * (damping.by_a * rates.a + damping.by_b * rates.b);
-  }
-
-  /// Rates of I, eps_A and eps_B.
-  struct AxialRates {
-    E I, a, b;
-  };
-  NURBEAM_WITHIN AxialRates axial_rates(const Nodes& e, const Nodes& e_rate, const Nodes& I_e) const {
-    return {sum_of_products(I_e, e_rate), dot(e[1], e_rate[1]), dot(e[3], e_rate[3])};
-  }
-  NURBEAM_WITHIN AxialMeans<E> axial_damping(const AxialRates& rates) const {
-    return viscous_axial_means(beam, AssumedStrainOf<E>(rates.I, rates.a, rates.b, sums.length));
+        damping.by_0 * rates[0] + sums.length * (damping.by_a * rates[1] + damping.by_b * rates[2]);
   }
   NURBEAM_WITHIN TensionDamping<E> tension_damping(const E& I) const {
     const E strain = I / sums.length;
@@ -309,11 +453,14 @@ struct FixedKernel {
   }
 
   /// Adds the tangents of the points: only the blocks above the diagonal, unless `full`.
-  NURBEAM_WITHIN void add_point_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
-                                         bool full, Tangents& K) const {
+  NURBEAM_WITHIN Residue add_point_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
+                                            bool full, Tangents& K) const {
+    Residue residue{zero<P>(), zero<P>()};
     for (int i = 0; i < count; ++i) {
       const PointNumbers<P>& p = points[i];
-      const PairMatrix<D, P> H = point_tangent(combination(e, p.S1), combination(e, p.S2), e_rate, p, w);
+      const Components<D, P> rs = combination(e, p.S1);
+      const PairMatrix<D, P> H = point_tangent(rs, combination(e, p.S2), e_rate, p, w);
+      add_residue(p, rs, residue);
       for (int k = 0; k < 4; ++k)
         for (int b = 0; b < D; ++b) {
           std::array<P, 2 * D> by;
@@ -323,15 +470,19 @@ struct FixedKernel {
               K[k * D + b][l * D + a] += total(P(p.S1[l] * by[a] + p.S2[l] * by[D + a]));
         }
     }
+    return residue;
   }
 
-  /// Stresses on x = (I, eps_A, eps_B) and their weighted derivatives by x; by the rates only with damping.
+  /// Stresses on x = (I, a, b) and their weighted derivatives by x; by the rates only with damping.
   struct AxialTangent {
     E on_I, on_a, on_b;
     E II, Ia, Ib, aa, ab, bb;
 
     NURBEAM_WITHIN std::array<E, 3> product(const E& I, const E& a, const E& b) const {
       return {II * I + Ia * a + Ib * b, Ia * I + aa * a + ab * b, Ib * I + ab * a + bb * b};
+    }
+    NURBEAM_WITHIN std::array<std::array<E, 3>, 3> matrix() const {
+      return {{{II, Ia, Ib}, {Ia, aa, ab}, {Ib, ab, bb}}};
     }
   };
   NURBEAM_WITHIN static AxialTangent of_means(const AxialMeans<E>& m, const E& l, double stress,
@@ -341,17 +492,18 @@ struct FixedKernel {
   }
 
   /// Adds the tangents of the axial stresses. With x = (I, eps_A, eps_B) and its rate x' = x_q v, x_qq and
-  /// d(x')/dq are G and ones.
+  /// d(x')/dq are G and ones. The end values of own slopes have more.
   NURBEAM_WITHIN void add_axial_tangents(const Nodes& e, const Nodes& e_rate, const TangentWeights& w,
                                          bool full, Tangents& K) const {
     const auto [I_e, I] = stretch(e);
     if (beam.tension_damping > 0) add_tension_tangents(e_rate, I_e, tension_damping(I), w, full, K);
     if (!assumed) return;
     const E& l = sums.length;
-    AxialTangent by_x = of_means(axial_means<GaussRule>(beam, assumed_strain(e, I), free_strain), l,
-                                 w.stiffness, w.stiffness);
-    if (!law.is_damped()) return add_axial_products(e, I_e, by_x, nullptr, nullptr, full, K);
-    const AxialMeans<E> damping = axial_damping(axial_rates(e, e_rate, I_e));
+    const Moments moments = this->moments(e);
+    AxialTangent by_x = of_means(axial_means(e, I, moments), l, w.stiffness, w.stiffness);
+    if (!law.is_damped())
+      return add_axial_stress_tangents(e, I_e, I, moments, by_x, nullptr, nullptr, full, K);
+    const AxialMeans<E> damping = axial_damping(axial_rates(e, e_rate, I_e, moments));
     const AxialTangent rated = of_means(damping, l, w.stiffness, w.damping),
                        by_rate = of_means(damping, l, w.stiffness, w.stiffness);
     by_x.on_I += rated.on_I;
@@ -363,7 +515,43 @@ struct FixedKernel {
     by_x.aa += rated.aa;
     by_x.ab += rated.ab;
     by_x.bb += rated.bb;
-    add_axial_products(e, I_e, by_x, &e_rate, &by_rate, full, K);
+    add_axial_stress_tangents(e, I_e, I, moments, by_x, &e_rate, &by_rate, full, K);
+  }
+  NURBEAM_WITHIN void add_axial_stress_tangents(const Nodes& e, const Nodes& I_e, const E& I,
+                                                const Moments& moments, const AxialTangent& by_x,
+                                                const Nodes* e_rate, const AxialTangent* by_rate, bool full,
+                                                Tangents& K) const {
+    if (own_slopes == 0) return add_axial_products(e, I_e, by_x, e_rate, by_rate, full, K);
+    StrainStresses<3, E> stresses{{by_x.on_I, by_x.on_a, by_x.on_b}, by_x.matrix(), {}};
+    if (by_rate) stresses.by_rate = by_rate->matrix();
+    add_stress_tangents<D>(axial_functions(e, I_e, I, moments), e_rate, stresses, full, K);
+  }
+
+  /// (I, a, b) of elements with own slopes.
+  NURBEAM_WITHIN std::array<Function, 3> axial_functions(const Nodes& e, const Nodes& I_e, const E& I,
+                                                         const Moments& moments) const {
+    std::array<Function, 3> x;
+    x[0] = {I, I_e, sums.stretch};
+    for (const int end : {0, 1}) {
+      const std::array<E, 5>& of = end == 0 ? sums.ends.a : sums.ends.b;
+      Function& value = x[1 + end];
+      const E of_I = of[2] / sums.length;
+      for (int k = 0; k < 4; ++k) {
+        for (int d = 0; d < D; ++d) value.by_e[k][d] = of_I * I_e[k][d];
+        for (int m = 0; m < 4; ++m) value.by_ee[k][m] = of_I * sums.stretch[k][m];
+      }
+      for (int i = 0; i < own_slopes; ++i) {
+        add(of[3 + i], moments[i].by_e, value.by_e);
+        for (int k = 0; k < 4; ++k)
+          for (int m = 0; m < 4; ++m) value.by_ee[k][m] += of[3 + i] * moments[i].by_ee[k][m];
+      }
+      for (const int slope : {1, 3}) {
+        const E& factor = of[slope / 2];
+        for (int d = 0; d < D; ++d) value.by_e[slope][d] += factor * e[slope][d];
+        value.by_ee[slope][slope] += factor;
+      }
+    }
+    return x;
   }
 
   /// Component b of nodal value k if k is `of`, the index of a slope; else 0.

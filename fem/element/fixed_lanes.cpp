@@ -9,9 +9,9 @@ double FixedLanes::product(int lane, const FixedLanes& other, int lane_of_other)
   constexpr int size = sizeof(FixedLanes) / sizeof(ElementLanes);
   const auto *own = reinterpret_cast<const ElementLanes*>(this),
              *of_other = reinterpret_cast<const ElementLanes*>(&other);
-  double sum = 0;
-  for (int i = 0; i < size; ++i) sum += own[i].of(lane) * of_other[i].of(lane_of_other);
-  return sum;
+  double product = 0;
+  for (int i = 0; i < size; ++i) product += own[i].of(lane) * of_other[i].of(lane_of_other);
+  return product;
 }
 
 // The first element fills all lanes.
@@ -30,6 +30,7 @@ void FixedLanes::put(int lane, const FixedSums& sums, const PointPack& pack) {
     set(at[g].weight, pack.weight[g]);
     set(at[g].kappa0, pack.kappa0[g]);
     set(at[g].eps0, pack.eps0[g]);
+    for (int k = 0; k < 4; ++k) set(at[g].in_strain[k], pack.in_strain[k][g]);
   }
   for (int k = 0; k < 4; ++k) {
     for (int l = 0; l < 4; ++l) {
@@ -38,8 +39,14 @@ void FixedLanes::put(int lane, const FixedSums& sums, const PointPack& pack) {
     }
     set(sum.load_factor[k], sums.load_factor[k]);
   }
-  for (int k = 0; k < 3; ++k) set(sum.strain0[k], sums.strain0[k]);
+  for (int k = 0; k < 5; ++k) set(sum.strain0[k], sums.strain0[k]);
   set(sum.length, sums.length);
+  set(sum.buckling_strain, sums.buckling_strain);
+  set(sum.fold_resistance, sums.fold_resistance);
+  for (int k = 0; k < 5; ++k) {
+    set(sum.ends.a[k], sums.ends.a[k]);
+    set(sum.ends.b[k], sums.ends.b[k]);
+  }
 }
 
 FixedSums FixedLanes::sums(int lane) const {
@@ -51,8 +58,14 @@ FixedSums FixedLanes::sums(int lane) const {
     }
     sums.load_factor[k] = sum.load_factor[k].of(lane);
   }
-  for (int k = 0; k < 3; ++k) sums.strain0[k] = sum.strain0[k].of(lane);
+  for (int k = 0; k < 5; ++k) sums.strain0[k] = sum.strain0[k].of(lane);
   sums.length = sum.length.of(lane);
+  sums.buckling_strain = sum.buckling_strain.of(lane);
+  sums.fold_resistance = sum.fold_resistance.of(lane);
+  for (int k = 0; k < 5; ++k) {
+    sums.ends.a[k] = sum.ends.a[k].of(lane);
+    sums.ends.b[k] = sum.ends.b[k].of(lane);
+  }
   return sums;
 }
 
@@ -68,6 +81,7 @@ PointPack FixedLanes::pack(int lane) const {
     pack.weight[i] = i < points ? point.weight.of(lane) : 0;
     pack.kappa0[i] = point.kappa0.of(lane);
     pack.eps0[i] = point.eps0.of(lane);
+    for (int k = 0; k < 4; ++k) pack.in_strain[k][i] = i < points ? point.in_strain[k].of(lane) : 0;
   }
   return pack;
 }

@@ -4,6 +4,7 @@
 
 #include "fem/element/point_pack.h"
 #include "fem/element/quadrature.h"
+#include "fem/material/assumed_axial.h"
 
 namespace nurbeam {
 
@@ -13,8 +14,11 @@ struct ElementSums {
   std::array<std::array<E, 4>, 4> mass;     ///< rho A int S_k S_l ds
   std::array<std::array<E, 4>, 4> stretch;  ///< int S'_k S'_l ds, G of AxialSums
   std::array<E, 4> load_factor;             ///< int S_k ds
-  std::array<E, 3> strain0;                 ///< int eps_0 ds and eps_0 at both ends
+  std::array<E, 5> strain0;                 ///< int eps_0 ds, eps_0 at both ends, e_3 and e_4 of eps_0
   E length;                                 ///< s_b - s_a [m]
+  AssumedEnds<E> ends;                      ///< of the assumed axial strain
+  E buckling_strain;                        ///< compressive, of a beam that buckles
+  E fold_resistance;                        ///< factor on FoldResistance
 };
 using FixedSums = ElementSums<double>;
 

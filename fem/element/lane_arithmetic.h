@@ -56,6 +56,12 @@ NURBEAM_WITHIN Lanes8 is_zero(const Lanes8& a) {
   return part;
 }
 
+NURBEAM_WITHIN double largest(const Lanes8& a) {
+  const ElementLanes::Half half = a.half[0] > a.half[1] ? a.half[0] : a.half[1];
+  const double x = half[0] > half[1] ? half[0] : half[1], y = half[2] > half[3] ? half[2] : half[3];
+  return x > y ? x : y;
+}
+
 template <class Function>
 Lanes8 each(const Lanes8& a, const Function& f) {
   Lanes8 values;

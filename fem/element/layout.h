@@ -48,6 +48,7 @@ struct ElementState {
   ElementVector<D> q, v, a;
   double free_strain = 0;         ///< free strain at the present time (FreeStrain)
   std::optional<bool> taut = {};  ///< the side on which TautViscosity is held; none: by the strain
+  double stabilisation = 1;       ///< of the state: factor on FoldResistance
 
   ElementNodes<D> nodes() const { return ElementLayout<D>::nodes(q); }
   ElementNodes<D> node_rates() const { return ElementLayout<D>::nodes(v); }

@@ -1,7 +1,11 @@
 // The force of an element with moving ends, from forces on r, r_s and r_ss.
+#include <optional>
+
 #include "fem/element/beam_element.h"
 #include "fem/element/moving_point.h"
+#include "fem/element/moving_strain.h"
 #include "fem/element/moving_sums.h"
+#include "fem/material/fold_resistance.h"
 
 namespace nurbeam {
 
@@ -16,8 +20,11 @@ class ForceSum {
   using Vector = Eigen::Matrix<double, D, 1>;
   using Pair = Eigen::Matrix<double, 2 * D, 1>;
 
-  ForceSum(const BeamProperties& properties, const ElementState<D>& x, const Vector& load)
-      : properties_(properties), load_(load), x_(x), motion_(MovingPoint<D>::motion(x)) {}
+  ForceSum(const BeamProperties& properties, const AxialRule& axial, const ElementState<D>& x,
+           const Vector& load)
+      : properties_(properties), axial_(axial), load_(load), x_(x), motion_(MovingPoint<D>::motion(x)) {
+    if (axial.own_slopes.count() > 0) moments_.emplace();
+  }
 
   void add(const MovingRows& rows, const Jet& s, const Jet& weight) {
     const auto& [e, e_rate, e_second, w, w_rate] = motion_;
@@ -68,67 +75,131 @@ class ForceSum {
       force_.places[i] += on_r.dot(r_i[i]) + on_rs.dot(rs_i[i]) + on_rss.dot(rss_i[i]) - pull * s.d(i) -
                           dA * elastic.moment * rows.kappa0_first[i] - lagrangian * weight.d(i);
 
-    const double eps = (rs.squaredNorm() - 1) / 2;
-    stretch_integral_ += dA * eps;
-    stretch_.nodes.noalias() += (dA * rs) * rows.rs.value.transpose();
-    for (const int i : {0, 1}) stretch_.places[i] += dA * rs.dot(rs_i[i]) + eps * weight.d(i);
+    const StrainAtPoint<D> strain{rows.rs, rs, rs_i};
+    stretch_.add(strain, weight);
+    const double s_a = x_.q[ElementLayout<D>::place(0)], length = x_.q[ElementLayout<D>::place(1)] - s_a;
+    const StrainCoefficients<double> in_strain = strain_weights(s.value(), dA, s_a, length);
+    for (const std::size_t k : {0, 1}) residue_[k] += in_strain[3 + k] * strain.value();
+    std::array<Jet, 5> weights;
+    if (moments_) {
+      weights = weights_of(s, weight);
+      for (int k = 0; k < 3; ++k) (*moments_)[k].add(strain, weights[k]);
+    }
     if (!properties_.is_damped()) return;
-    const Vector stretching = dA * (rs_rate - rss * s_rate);
-    stretch_rate_ += rs.dot(stretching);
-    taut_.nodes.noalias() += stretching * rows.rs.value.transpose();
-    for (const int i : {0, 1}) {
-      const Vector test = rs_i[i] - rss * s.d(i);
-      place_test_[i] += dA * rs.dot(test);
-      taut_.places[i] += stretching.dot(test);
+    const Vector slope_rate = rs_rate - rss * s_rate;
+    const std::array<Vector, 2> tests{rs_i[0] - rss * s.d(0), rs_i[1] - rss * s.d(1)};
+    stretch_.add_rate(strain, dA, slope_rate, tests);
+    for (int k = 0; moments_ && k < 3; ++k)
+      (*moments_)[k].add_rate(strain, weights[k].value(), slope_rate, tests);
+    taut_.nodes.noalias() += (dA * slope_rate) * rows.rs.value.transpose();
+    for (const int i : {0, 1}) taut_.places[i] += dA * slope_rate.dot(tests[i]);
+  }
+
+  double fold_factor() const { return x_.stabilisation * axial_.fold_resistance; }
+  /// Whether FoldResistance acts. Then add_fold() needs each point once more.
+  bool folds(bool assumed) const {
+    return assumed && fold_factor() > 0 &&
+           squared_residue(residue_[0], residue_[1]) > FoldResistance::r_0 * FoldResistance::r_0;
+  }
+  void add_fold(const MovingRows& rows, const Jet& s, const Jet& weight) {
+    if (!fold_) fold_.emplace();
+    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
+    const Vector rs = e * rows.rs.value, rss = e * rows.rss.value;
+    const std::array<Vector, 2> rs_i{e * rows.rs.first[0], e * rows.rs.first[1]};
+    const StrainAtPoint<D> strain{rows.rs, rs, rs_i};
+    const std::array<Jet, 5> weights = weights_of(s, weight);
+    const double s_rate = s.d(0) * w[0] + s.d(1) * w[1];
+    const Vector slope_rate = e_rate * rows.rs.value + rs_i[0] * w[0] + rs_i[1] * w[1] - rss * s_rate;
+    const std::array<Vector, 2> tests{rs_i[0] - rss * s.d(0), rs_i[1] - rss * s.d(1)};
+    for (const std::size_t k : {0, 1}) {
+      (*fold_)[k].add(strain, weights[3 + k]);
+      (*fold_)[k].add_rate(strain, weights[3 + k].value(), slope_rate, tests);
     }
   }
 
   /// `basis`: basis of the points.
   ElementVector<D> total(bool assumed, const MovingBasis& basis) {
     ElementVector<D> f = force_.vector();
+    if (fold_) add_fold_force(f);
     if (!assumed && !(properties_.tension_damping > 0)) return f;
     AxialSums<D> axial(x_.q);
-    axial.y[0] = stretch_integral_;
-    axial.y_q.row(0) = stretch_.vector().transpose();
+    axial.y[0] = stretch_.value;
+    axial.y_q.row(0) = stretch_.gradient.vector().transpose();
+    if (moments_) take_ends(axial);
     axial.take_out(x_.free_strain);
     f += TautViscosity<D>(properties_, axial, x_.free_strain, x_.taut).value * taut_.vector();
     if (!assumed) return f;
-    axial.add_force(properties_, x_.free_strain, f);
+    axial.add_force(axial.energy(properties_, x_.free_strain, axial_.buckling_strain), f);
     if (properties_.damping > 0) add_axial_damping(axial.y[3], basis, f);
     return f;
   }
 
  private:
+  std::array<Jet, 5> weights_of(const Jet& s, const Jet& weight) const {
+    using Layout = ElementLayout<D>;
+    const Jet s_a = Jet::variable(x_.q[Layout::place(0)], 0), s_b = Jet::variable(x_.q[Layout::place(1)], 1);
+    return strain_weights(s, weight, s_a, s_b - s_a);
+  }
+
+  void add_fold_force(ElementVector<D>& f) const {
+    using Layout = ElementLayout<D>;
+    const auto& [third, fourth] = *fold_;
+    const FoldStresses<double> fold(properties_, fold_factor(), {third.value, fourth.value});
+    const double length = x_.q[Layout::place(1)] - x_.q[Layout::place(0)];
+    const std::array<double, 2> viscous = fold.viscous_force({third.rate, fourth.rate});
+    for (const std::size_t k : {0, 1}) {
+      f += (length * fold.force[k]) * (*fold_)[k].gradient.vector();
+      f += (length * viscous[k]) * (*fold_)[k].test();
+    }
+    f[Layout::place(0)] -= fold.energy;
+    f[Layout::place(1)] += fold.energy;
+  }
+
+  void take_ends(AxialSums<D>& axial) const {
+    Eigen::Vector3d values;
+    Eigen::Matrix<double, 3, element_size<D>> gradients;
+    for (int k = 0; k < 3; ++k) {
+      values[k] = (*moments_)[k].value;
+      gradients.row(k) = (*moments_)[k].gradient.vector().transpose();
+    }
+    axial.take_ends(axial_.own_slopes, values, gradients);
+  }
+
   void add_axial_damping(double l, const MovingBasis& basis, ElementVector<D>& f) const {
     using Layout = ElementLayout<D>;
-    Eigen::Vector3d rate(stretch_rate_, 0, 0);
-    std::array<Vector, 2> slope, bend;
+    // Rates of (eps_A, eps_B, e_0, e_1, e_2) at fixed material, and their gradients in the rates.
+    Eigen::Matrix<double, 5, 1> rates = Eigen::Matrix<double, 5, 1>::Zero();
+    Eigen::Matrix<double, 5, Layout::size> tests = Eigen::Matrix<double, 5, Layout::size>::Zero();
     for (const int end : {0, 1}) {
       const Jet s = Jet::variable(x_.q[Layout::place(end)], end);
-      slope[end] = motion_.e.col(2 * end + 1);
-      bend[end] = motion_.e * basis.rows_at(s).rss.value;
-      rate[1 + end] = slope[end].dot(motion_.e_rate.col(2 * end + 1) - bend[end] * motion_.w[end]);
+      const Vector slope = motion_.e.col(2 * end + 1), bend = motion_.e * basis.rows_at(s).rss.value;
+      rates[end] = slope.dot(motion_.e_rate.col(2 * end + 1) - bend * motion_.w[end]);
+      tests.template block<1, D>(end, Layout::slope(end)) = slope.transpose();
+      tests(end, Layout::place(end)) = -slope.dot(bend);
     }
-    const Eigen::Vector3d stress = AssumedAxialDamping(properties_, l, rate).stress;
-    f += stress[0] * Gradient<D>{stretch_.nodes, place_test_}.vector();
-    for (const int end : {0, 1}) {
-      f.template segment<D>(Layout::slope(end)) += stress[1 + end] * slope[end];
-      f[Layout::place(end)] -= stress[1 + end] * slope[end].dot(bend[end]);
+    for (int k = 0; moments_ && k < 3; ++k) {
+      rates[2 + k] = (*moments_)[k].rate;
+      tests.row(2 + k) = (*moments_)[k].test().transpose();
     }
+    const Eigen::Matrix<double, 2, 5> rule = matrix_of(assumed_ends(axial_.own_slopes));
+    const Eigen::Vector2d ends = rule * rates;
+    const Eigen::Vector3d stress =
+        AssumedAxialDamping(properties_, l, {stretch_.rate, ends[0], ends[1]}).stress;
+    f += stress[0] * stretch_.test();
+    f += (rule * tests).transpose() * stress.tail<2>();
   }
 
   const BeamProperties& properties_;
+  const AxialRule& axial_;
   const Vector& load_;
   const ElementState<D>& x_;
   typename MovingPoint<D>::Motion motion_;
   Gradient<D> force_;
-  double stretch_integral_ = 0;  ///< I of AxialSums; stretch_: its gradient
-  Gradient<D> stretch_;
-  // For damped elements: the rate of I at fixed material and its gradient in the rates of the places, and the
-  // force of a tension of viscosity 1.
-  double stretch_rate_ = 0;
-  std::array<double, 2> place_test_{};
-  Gradient<D> taut_;
+  StrainSum<D> stretch_;                                // I of AxialSums
+  std::optional<std::array<StrainSum<D>, 3>> moments_;  // e_0, e_1 and e_2, with own slopes alone
+  std::array<double, 2> residue_{};                     // e_3 and e_4, and with gradients where they resist
+  std::optional<std::array<StrainSum<D>, 2>> fold_;
+  Gradient<D> taut_;  // the force of a tension of viscosity 1
 };
 
 }  // namespace
@@ -139,8 +210,11 @@ ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& l
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   const MovingBasis basis(*curve_, chart_, s_a, s_b, Derivatives::one);
-  ForceSum<D> sum(*properties_, x, load);
+  ForceSum<D> sum(*properties_, axial_rule_, x, load);
   for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) { sum.add(basis.rows_at(s), s, weight); });
+  if (sum.folds(assumes_strain()))
+    for_each_place(s_a, s_b,
+                   [&](const Jet& s, const Jet& weight) { sum.add_fold(basis.rows_at(s), s, weight); });
   return sum.total(assumes_strain(), basis);
 }
 
@@ -160,8 +234,10 @@ typename BeamElement<D>::Points BeamElement<D>::points(const ElementVector<D>& q
 template <int D>
 ElementVector<D> BeamElement<D>::force(const ElementState<D>& x, const Vector& load,
                                        const Points& points) const {
-  ForceSum<D> sum(*properties_, x, load);
+  ForceSum<D> sum(*properties_, axial_rule_, x, load);
   for (const auto& [rows, s, weight] : points.all) sum.add(rows, s, weight);
+  if (sum.folds(assumes_strain()))
+    for (const auto& [rows, s, weight] : points.all) sum.add_fold(rows, s, weight);
   return sum.total(assumes_strain(), points.basis);
 }
 

@@ -1,12 +1,15 @@
 // The tangent of the force of an element with moving ends: the sum over the points of the terms of inertia,
 // elasticity, load and damping. Each term is given by forces on r, r_s and r_ss.
 // Long because the terms are one sum over the points.
+#include <optional>
 #include <tuple>
 
 #include "fem/element/beam_element.h"
 #include "fem/element/moving_mass.h"
 #include "fem/element/moving_point.h"
+#include "fem/element/moving_strain.h"
 #include "fem/element/moving_sums.h"
+#include "fem/material/fold_resistance.h"
 
 namespace nurbeam {
 
@@ -35,14 +38,16 @@ class TangentSum {
   using Nodes = ElementNodes<D>;
   using Vectors = std::array<Vector, 2>;
 
-  TangentSum(const BeamProperties& properties, const ElementState<D>& x, const Vector& load,
-             const TangentWeights& t)
+  TangentSum(const BeamProperties& properties, const AxialRule& axial, const ElementState<D>& x,
+             const Vector& load, const TangentWeights& t)
       : properties_(properties),
+        axial_(axial),
         load_(load),
         x_(x),
         t_(t),
         assumed_(properties.axial_strain == AxialStrain::ends_and_mean),
         motion_(MovingPoint<D>::motion(x)) {
+    if (axial.own_slopes.count() > 0) moments_.emplace();
     nodal_.setZero();
   }
 
@@ -54,8 +59,25 @@ class TangentSum {
     add_load(p, acts);
     add_action(p, acts);
     if (t_.stiffness == 0 && t_.damping == 0) return;
-    add_stretch(p);
-    if (properties_.is_damped()) add_damping(p);
+    add_stretch(p, s, weight);
+    if (properties_.is_damped()) add_damping(p, s, weight);
+  }
+
+  double fold_factor() const { return x_.stabilisation * axial_.fold_resistance; }
+  /// Whether FoldResistance acts. Then add_fold() needs each point once more.
+  bool folds() const {
+    return assumed_ && fold_factor() > 0 && (t_.stiffness != 0 || t_.damping != 0) &&
+           squared_residue(residue_[0], residue_[1]) > FoldResistance::r_0 * FoldResistance::r_0;
+  }
+  void add_fold(const MovingRows& rows, const Jet& s, const Jet& weight) {
+    if (!fold_) fold_.emplace();
+    const Point p(rows, s, weight, motion_, t_);
+    const std::array<Jet, 5> weights = weights_of(s, weight);
+    const SlopeMotion motion(p, t_);
+    for (const std::size_t k : {0, 1}) {
+      add_to((*fold_)[k], p, weights[3 + k]);
+      (*fold_)[k].add_rate(strain_at(p), weights[3 + k], motion.rate(p), t_.stiffness);
+    }
   }
 
   /// `basis`: basis of the points.
@@ -65,18 +87,22 @@ class TangentSum {
     ElementMatrix<D> K = sums_.matrix();
     K.template topLeftCorner<nodal, nodal>() += nodal_;
     if (t_.stiffness == 0 && t_.damping == 0) return K;
+    if (fold_) add_fold_tangent(K);
     if (!assumed_ && !(properties_.tension_damping > 0)) return K;
     AxialSums<D> axial(x_.q);
-    axial.y[0] = stretch_integral_;
-    axial.y_q.row(0) = stretch_.vector().transpose();
+    axial.y[0] = stretch_.sum.value;
+    axial.y_q.row(0) = stretch_.sum.gradient.vector().transpose();
+    if (moments_) take_ends(axial);
     axial.take_out(x_.free_strain);
     if (const TautViscosity<D> eta(properties_, axial, x_.free_strain, x_.taut); eta.value != 0)
       K += eta.value * taut_.matrix() + t_.stiffness * taut_force_.vector() * eta.gradient.transpose();
     if (!assumed_) return K;
-    PlaceSums<D> I_qq = stretch_rates_;
-    I_qq.of_place = I_qq.by_place;
-    I_qq.places = stretch_places_;
-    if (t_.stiffness != 0) axial.add_tangent(properties_, x_.free_strain, t_.stiffness, I_qq.matrix(), K);
+    if (t_.stiffness != 0) {
+      std::array<ElementMatrix<D>, 3> moments_qq;
+      for (int k = 0; moments_ && k < 3; ++k) moments_qq[k] = (*moments_)[k].hessian();
+      axial.add_tangent(axial.energy(properties_, x_.free_strain, axial_.buckling_strain), t_.stiffness,
+                        stretch_.hessian(), axial_.own_slopes, moments_ ? &moments_qq : nullptr, K);
+    }
     if (properties_.damping > 0) add_axial_damping(axial.y[3], basis, K);
     return K;
   }
@@ -282,38 +308,68 @@ class TangentSum {
     }
   }
 
-  // Adds to I of AxialSums, its gradient and second derivatives.
-  void add_stretch(const Point& p) {
-    const auto& [rows, rs, A, A_i] = std::tie(p.rows.rs, p.rs, p.A, p.A_i);
-    const double eps = (rs.value.squaredNorm() - 1) / 2;
-    stretch_integral_ += A * eps;
-    stretch_.nodes.noalias() += (A * rs.value) * rows.value.transpose();
-    stretch_rates_.isotropic.noalias() += (A * rows.value) * rows.value.transpose();
-    const std::array<double, 2> eps_i{rs.value.dot(rs.first[0]), rs.value.dot(rs.first[1])};
-    for (const int i : {0, 1}) {
-      stretch_.places[i] += A * eps_i[i] + eps * A_i[i];
-      Nodes& by_place = stretch_rates_.by_place[i];
-      by_place.noalias() += (A * rs.first[i] + A_i[i] * rs.value) * rows.value.transpose();
-      by_place.noalias() += (A * rs.value) * rows.first[i].transpose();
-      for (const int j : {0, 1})
-        stretch_places_(i, j) += A * (rs.first[i].dot(rs.first[j]) + rs.value.dot(rs.second[i + j])) +
-                                 A_i[j] * eps_i[i] + A_i[i] * eps_i[j];
-    }
+  std::array<Jet, 5> weights_of(const Jet& s, const Jet& weight) const {
+    using Layout = ElementLayout<D>;
+    const Jet s_a = Jet::variable(x_.q[Layout::place(0)], 0), s_b = Jet::variable(x_.q[Layout::place(1)], 1);
+    return strain_weights(s, weight, s_a, s_b - s_a);
   }
 
-  void add_damping(const Point& p) {
-    const MovingRows& rows = p.rows;
-    const double k = t_.stiffness, d = t_.damping;
-    if (properties_.mass_damping > 0) add_drag(rows.r, rows.rs.value, p);
+  static StrainAtPoint<D> strain_at(const Point& p) { return {p.rows.rs, p.rs.value, p.rs.first}; }
+
+  static void add_to(StrainSumTangent<D>& sum, const Point& p, const Jet& weight) {
+    sum.add(strain_at(p), weight);
+    sum.add_second(strain_at(p), weight.value(), p.rs.second);
+  }
+
+  // Adds to I of AxialSums, to e_3 and e_4, and with own slopes to e_0, e_1 and e_2.
+  void add_stretch(const Point& p, const Jet& s, const Jet& weight) {
+    add_to(stretch_, p, weight);
+    const double s_a = x_.q[ElementLayout<D>::place(0)], length = x_.q[ElementLayout<D>::place(1)] - s_a;
+    const StrainCoefficients<double> in_strain = strain_weights(s.value(), weight.value(), s_a, length);
+    for (const std::size_t k : {0, 1}) residue_[k] += in_strain[3 + k] * strain_at(p).value();
+    if (!moments_) return;
+    const std::array<Jet, 5> weights = weights_of(s, weight);
+    for (std::size_t k = 0; k < 3; ++k) add_to((*moments_)[k], p, weights[k]);
+  }
+
+  // The rate of r_s at fixed material, and its derivatives.
+  struct SlopeMotion {
+    Vector value;
+    Row by_nodes;
+    Vectors by_places;
+
+    SlopeMotion(const Point& p, const TangentWeights& t)
+        : value(p.rs_rate - p.rss.value * p.s_rate),
+          by_nodes(p.rs_rate_e - (t.stiffness * p.s_rate) * p.rows.rss.value) {
+      for (const int i : {0, 1})
+        by_places[i] =
+            p.rs_rate_i[i] - (t.stiffness * p.s_rate) * p.rss.first[i] - (t.damping * p.s_i[i]) * p.rss.value;
+    }
+    SlopeRate<D> rate(const Point& p) const {
+      SlopeRate<D> rate{value, by_nodes, by_places, {}, {}, {}};
+      for (const int i : {0, 1}) {
+        rate.tests[i] = p.rs.first[i] - p.s_i[i] * p.rss.value;
+        rate.test_rows[i] = p.rows.rs.first[i] - p.s_i[i] * p.rows.rss.value;
+        for (const int j : {0, 1})
+          rate.tests_by_places[i][j] = p.rs.second[i + j] - p.s_i[i] * p.rss.first[j];
+      }
+      return rate;
+    }
+  };
+
+  void add_damping(const Point& p, const Jet& s, const Jet& weight) {
+    if (properties_.mass_damping > 0) add_drag(p.rows.r, p.rows.rs.value, p);
     if (!(properties_.damping > 0 || properties_.tension_damping > 0)) return;
-    // The rate of r_s at fixed material, and its derivatives.
-    const Vector rate = p.rs_rate - p.rss.value * p.s_rate;
-    const Row rate_e = p.rs_rate_e - (k * p.s_rate) * rows.rss.value;
-    Vectors rate_i;
-    for (const int i : {0, 1})
-      rate_i[i] = p.rs_rate_i[i] - (k * p.s_rate) * p.rss.first[i] - (d * p.s_i[i]) * p.rss.value;
-    if (properties_.damping > 0) add_viscosity(rows, p, rate, rate_e, rate_i);
-    add_rate_of_stretch(rows, p, rate, rate_e, rate_i);
+    const SlopeMotion motion(p, t_);
+    if (properties_.damping > 0) add_viscosity(p.rows, p, motion.value, motion.by_nodes, motion.by_places);
+    const SlopeRate<D> rate = motion.rate(p);
+    stretch_.add_rate(strain_at(p), weight, rate, t_.stiffness);
+    if (moments_) {
+      const std::array<Jet, 5> weights = weights_of(s, weight);
+      for (std::size_t k = 0; k < 3; ++k)
+        (*moments_)[k].add_rate(strain_at(p), weights[k], rate, t_.stiffness);
+    }
+    if (properties_.tension_damping > 0) add_taut(p, rate);
   }
 
   // Adds the tangent of a drag on the material velocity.
@@ -388,85 +444,138 @@ class TangentSum {
     }
   }
 
-  // Adds to the rate of I at fixed material, and to the force of a tension of viscosity 1, both for r_s
-  // alone.
-  void add_rate_of_stretch(const MovingRows& rows, const Point& p, const Vector& rate, const Row& rate_e,
-                           const Vectors& rate_i) {
+  // Adds to the force of a tension of viscosity 1, for r_s alone, and to its tangent.
+  void add_taut(const Point& p, const SlopeRate<D>& rate) {
     const double k = t_.stiffness, A = p.A;
-    const Row& row = rows.rs.value;
-    const Vector& rs = p.rs.value;
-    stretch_rate_ += A * rs.dot(rate);
-    rate_gradient_.nodes.noalias() += (k * A) * rate * row.transpose();
-    rate_gradient_.nodes.noalias() += A * rs * rate_e.transpose();
-    taut_force_.nodes.noalias() += A * rate * row.transpose();
-    taut_.isotropic.noalias() += (A * row) * rate_e.transpose();
+    const Row& row = p.rows.rs.value;
+    taut_force_.nodes.noalias() += A * rate.value * row.transpose();
+    taut_.isotropic.noalias() += (A * row) * rate.by_nodes.transpose();
     for (const int i : {0, 1}) {
-      const Vector test = p.rs.first[i] - p.s_i[i] * p.rss.value;
-      const Row test_row = rows.rs.first[i] - p.s_i[i] * rows.rss.value;
-      rate_gradient_.places[i] +=
-          A * (k * rate.dot(p.rs.first[i]) + rs.dot(rate_i[i])) + (k * p.A_i[i]) * rs.dot(rate);
-      test_places_[i] += A * rs.dot(test);
-      taut_force_.places[i] += A * rate.dot(test);
-      stretch_rates_.of_place[i].noalias() += A * test * row.transpose();
-      stretch_rates_.of_place[i].noalias() += A * rs * test_row.transpose();
-      taut_.by_place[i].noalias() += (A * rate_i[i] + (k * p.A_i[i]) * rate) * row.transpose();
-      taut_.by_place[i].noalias() += (k * A) * rate * rows.rs.first[i].transpose();
-      taut_.of_place[i].noalias() += A * test * rate_e.transpose();
-      taut_.of_place[i].noalias() += (k * A) * rate * test_row.transpose();
-      for (const int j : {0, 1}) {
-        const Vector test_j = p.rs.second[i + j] - p.s_i[i] * p.rss.first[j];
-        stretch_rates_.places(i, j) +=
-            A * (p.rs.first[j].dot(test) + rs.dot(test_j)) + p.A_i[j] * rs.dot(test);
+      const Vector& test = rate.tests[i];
+      taut_force_.places[i] += A * rate.value.dot(test);
+      taut_.by_place[i].noalias() += (A * rate.by_places[i] + (k * p.A_i[i]) * rate.value) * row.transpose();
+      taut_.by_place[i].noalias() += (k * A) * rate.value * p.rows.rs.first[i].transpose();
+      taut_.of_place[i].noalias() += A * test * rate.by_nodes.transpose();
+      taut_.of_place[i].noalias() += (k * A) * rate.value * rate.test_rows[i].transpose();
+      for (const int j : {0, 1})
         taut_.places(i, j) +=
-            A * (test.dot(rate_i[j]) + k * rate.dot(test_j)) + (k * p.A_i[j]) * rate.dot(test);
-      }
+            A * (test.dot(rate.by_places[j]) + k * rate.value.dot(rate.tests_by_places[i][j])) +
+            (k * p.A_i[j]) * rate.value.dot(test);
     }
   }
 
-  // Adds the tangent of AssumedAxialDamping: stresses on (I, eps_A, eps_B) at fixed material, times their
-  // gradients in the rates, Z.
+  // A function of the strain in AssumedAxialDamping: its rate at fixed material, the gradient of the rate in
+  // the coordinates (with the rates weighted) and in their rates, and the derivatives of the latter.
+  struct Rated {
+    double rate = 0;
+    ElementVector<D> rate_q = ElementVector<D>::Zero(), test = ElementVector<D>::Zero();
+    ElementMatrix<D> test_q = ElementMatrix<D>::Zero();
+  };
+
+  static Rated rated(const StrainSumTangent<D>& of) {
+    return {of.sum.rate, of.rate_gradient.vector(), of.sum.test(), of.test_gradient()};
+  }
+  // eps' = r_s . (dr_s/dt - r_ss ds/dt) at an end, with r_s the node's own slope.
+  Rated rated_at(int end, const MovingBasis& basis) const {
+    using Layout = ElementLayout<D>;
+    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
+    const double k = t_.stiffness, d = t_.damping;
+    const MovingRows::Series rss = basis.rows_at(Jet::variable(x_.q[Layout::place(end)], end)).rss;
+    const Vector slope = e.col(2 * end + 1), bend = e * rss.value;
+    const Vector slope_rate = e_rate.col(2 * end + 1) - bend * w[end];
+    const int at = Layout::slope(end), place = Layout::place(end);
+    Rated x;
+    x.rate = slope.dot(slope_rate);
+    x.test.template segment<D>(at) = slope;
+    x.test[place] = -bend.dot(slope);
+    Gradient<D> bending;  // gradient of slope . bend by bend alone
+    bending.nodes = slope * rss.value.transpose();
+    for (const int j : {0, 1}) bending.places[j] = slope.dot(e * rss.first[j]);
+    x.rate_q = -(k * w[end]) * bending.vector();
+    x.rate_q.template segment<D>(at) += k * slope_rate + d * slope;
+    x.rate_q[place] -= d * bend.dot(slope);
+    x.test_q.template block<D, D>(at, at).setIdentity();
+    x.test_q.row(place) = -bending.vector().transpose();
+    x.test_q.template block<1, D>(place, at) -= bend.transpose();
+    return x;
+  }
+  // The end values of the assumed strain.
+  std::array<Rated, 2> rated_ends(const MovingBasis& basis) const {
+    std::array<Rated, 2> nodal{rated_at(0, basis), rated_at(1, basis)};
+    if (!moments_) return nodal;
+    const Eigen::Matrix<double, 2, 5> rule = matrix_of(assumed_ends(axial_.own_slopes));
+    std::array<Rated, 2> ends;
+    const auto add = [&](int i, const Rated& part) {
+      for (const int end : {0, 1}) {
+        ends[end].rate += rule(end, i) * part.rate;
+        ends[end].rate_q += rule(end, i) * part.rate_q;
+        ends[end].test += rule(end, i) * part.test;
+        ends[end].test_q += rule(end, i) * part.test_q;
+      }
+    };
+    for (int i = 0; i < 5; ++i) add(i, i < 2 ? nodal[i] : rated((*moments_)[i - 2]));
+    return ends;
+  }
+
+  // Adds the tangent of AssumedAxialDamping: stresses on the rates of (I, a, b) at fixed material, times
+  // their gradients in the rates.
   void add_axial_damping(double l, const MovingBasis& basis, ElementMatrix<D>& K) const {
     using Layout = ElementLayout<D>;
     using Rows = Eigen::Matrix<double, 3, Layout::size>;
-    const auto& [e, e_rate, e_second, w, w_rate] = motion_;
-    const double k = t_.stiffness, d = t_.damping;
-    Eigen::Vector3d rate(stretch_rate_, 0, 0);
-    Rows Z = Rows::Zero(), rate_q = Rows::Zero();
-    Z.row(0) = Gradient<D>{stretch_.nodes, test_places_}.vector().transpose();
-    rate_q.row(0) = rate_gradient_.vector().transpose();
-    std::array<ElementMatrix<D>, 2> Z_q{ElementMatrix<D>::Zero(), ElementMatrix<D>::Zero()};
-    for (const int end : {0, 1}) {
-      // eps' = r_s . (dr_s/dt - r_ss ds/dt), with r_s the node's own slope.
-      const MovingRows::Series rss = basis.rows_at(Jet::variable(x_.q[Layout::place(end)], end)).rss;
-      const Vector slope = e.col(2 * end + 1), bend = e * rss.value;
-      const Vector slope_rate = e_rate.col(2 * end + 1) - bend * w[end];
-      const int at = Layout::slope(end), place = Layout::place(end);
-      rate[1 + end] = slope.dot(slope_rate);
-      Z.template block<1, D>(1 + end, at) = slope.transpose();
-      Z(1 + end, place) = -bend.dot(slope);
-      Gradient<D> bending;  // gradient of slope . bend by bend alone
-      bending.nodes = slope * rss.value.transpose();
-      for (const int j : {0, 1}) bending.places[j] = slope.dot(e * rss.first[j]);
-      auto own_rate = rate_q.row(1 + end);
-      own_rate = -(k * w[end]) * bending.vector().transpose();
-      own_rate.template segment<D>(at) += (k * slope_rate + d * slope).transpose();
-      own_rate[place] -= d * bend.dot(slope);
-      ElementMatrix<D>& own = Z_q[end];
-      own.template block<D, D>(at, at).setIdentity();
-      own.row(place) = -bending.vector().transpose();
-      own.template block<1, D>(place, at) -= bend.transpose();
-    }
-    const AssumedAxialDamping damping(properties_, l, rate);
+    const double k = t_.stiffness;
+    const std::array<Rated, 2> ends = rated_ends(basis);
+    Rows Z, rate_q;
+    Z << stretch_.sum.test().transpose(), ends[0].test.transpose(), ends[1].test.transpose();
+    rate_q << stretch_.rate_gradient.vector().transpose(), ends[0].rate_q.transpose(),
+        ends[1].rate_q.transpose();
+    const AssumedAxialDamping damping(properties_, l, {stretch_.sum.rate, ends[0].rate, ends[1].rate});
     Rows stress_q = damping.by_rate * rate_q;
     stress_q.col(Layout::place(0)) -= k * damping.by_length;
     stress_q.col(Layout::place(1)) += k * damping.by_length;
     K += Z.transpose() * stress_q;
     if (k == 0) return;
-    K += (k * damping.stress[0]) * stretch_rates_.matrix();
-    for (const int end : {0, 1}) K += (k * damping.stress[1 + end]) * Z_q[end];
+    K += (k * damping.stress[0]) * stretch_.test_gradient();
+    for (const int end : {0, 1}) K += (k * damping.stress[1 + end]) * ends[end].test_q;
+  }
+
+  // Adds the tangent of FoldResistance and its damping.
+  void add_fold_tangent(ElementMatrix<D>& K) const {
+    using Layout = ElementLayout<D>;
+    const double k = t_.stiffness, length = x_.q[Layout::place(1)] - x_.q[Layout::place(0)];
+    const std::array<Rated, 2> x{rated((*fold_)[0]), rated((*fold_)[1])};
+    const std::array<ElementVector<D>, 2> x_q{(*fold_)[0].sum.gradient.vector(),
+                                              (*fold_)[1].sum.gradient.vector()};
+    const FoldStresses<double> fold(properties_, fold_factor(),
+                                    {(*fold_)[0].sum.value, (*fold_)[1].sum.value});
+    const std::array<double, 2> rate{x[0].rate, x[1].rate}, viscous = fold.viscous_force(rate);
+    const auto viscosity = fold.viscosity(), viscous_by_e = fold.viscous_force_by_e(rate);
+    ElementVector<D> length_q = ElementVector<D>::Zero();
+    length_q[Layout::place(0)] = -1;
+    length_q[Layout::place(1)] = 1;
+    for (const std::size_t i : {0, 1}) {
+      ElementVector<D> force_q = (k * fold.force[i]) * length_q, viscous_q = (k * viscous[i]) * length_q;
+      for (const std::size_t j : {0, 1}) {
+        force_q += (k * length * fold.stiffness[i][j]) * x_q[j];
+        viscous_q += (k * length * viscous_by_e[i][j]) * x_q[j] + (length * viscosity[i][j]) * x[j].rate_q;
+      }
+      K += x_q[i] * force_q.transpose() + (k * fold.force[i]) * length_q * x_q[i].transpose();
+      K += (k * length * fold.force[i]) * (*fold_)[i].hessian();
+      K += x[i].test * viscous_q.transpose() + (k * length * viscous[i]) * x[i].test_q;
+    }
+  }
+
+  void take_ends(AxialSums<D>& axial) const {
+    Eigen::Vector3d values;
+    Eigen::Matrix<double, 3, element_size<D>> gradients;
+    for (int k = 0; k < 3; ++k) {
+      values[k] = (*moments_)[k].sum.value;
+      gradients.row(k) = (*moments_)[k].sum.gradient.vector().transpose();
+    }
+    axial.take_ends(axial_.own_slopes, values, gradients);
   }
 
   const BeamProperties& properties_;
+  const AxialRule& axial_;
   const Vector& load_;
   const ElementState<D>& x_;
   const TangentWeights& t_;
@@ -474,16 +583,10 @@ class TangentSum {
   typename MovingPoint<D>::Motion motion_;
   Eigen::Matrix<double, 4 * D, 4 * D> nodal_;
   PlaceSums<D> sums_;
-  double stretch_integral_ = 0;  ///< I of AxialSums; stretch_: its gradient
-  Gradient<D> stretch_;
-  Eigen::Matrix2d stretch_places_ = Eigen::Matrix2d::Zero();  ///< second derivatives of I by the places
-  // For damped elements: the rate of I at fixed material and its gradients in the coordinates (with the rates
-  // weighted) and in the rates of the places. Further the derivatives of this gradient in all rates; in the
-  // rates of the nodes it is the gradient of I.
-  double stretch_rate_ = 0;
-  Gradient<D> rate_gradient_;
-  std::array<double, 2> test_places_{};
-  PlaceSums<D> stretch_rates_;
+  StrainSumTangent<D> stretch_;                                // I of AxialSums
+  std::optional<std::array<StrainSumTangent<D>, 3>> moments_;  // e_0, e_1 and e_2, with own slopes alone
+  std::array<double, 2> residue_{};  // e_3 and e_4, and with derivatives where they resist
+  std::optional<std::array<StrainSumTangent<D>, 2>> fold_;
   Gradient<D> taut_force_;
   PlaceSums<D> taut_;
 };
@@ -504,8 +607,11 @@ ElementMatrix<D> BeamElement<D>::tangent(const ElementState<D>& x, const Vector&
     return sum.total();
   }
   const MovingBasis basis(*curve_, chart_, s_a, s_b);
-  TangentSum<D> sum(*properties_, x, load, t);
+  TangentSum<D> sum(*properties_, axial_rule_, x, load, t);
   for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) { sum.add(basis.rows_at(s), s, weight); });
+  if (sum.folds())
+    for_each_place(s_a, s_b,
+                   [&](const Jet& s, const Jet& weight) { sum.add_fold(basis.rows_at(s), s, weight); });
   return sum.total(basis);
 }
 
@@ -516,12 +622,17 @@ std::array<ElementMatrix<D>, 2> BeamElement<D>::tangents(const ElementState<D>& 
   using Layout = ElementLayout<D>;
   const Jet s_a = Jet::variable(x.q[Layout::place(0)], 0), s_b = Jet::variable(x.q[Layout::place(1)], 1);
   const MovingBasis basis(*curve_, chart_, s_a, s_b);
-  TangentSum<D> first(*properties_, x, load, w[0]), second(*properties_, x, load, w[1]);
+  TangentSum<D> first(*properties_, axial_rule_, x, load, w[0]),
+      second(*properties_, axial_rule_, x, load, w[1]);
   for_each_place(s_a, s_b, [&](const Jet& s, const Jet& weight) {
     const MovingRows rows = basis.rows_at(s);
     first.add(rows, s, weight);
     second.add(rows, s, weight);
   });
+  for (TangentSum<D>* sum : {&first, &second})
+    if (sum->folds())
+      for_each_place(s_a, s_b,
+                     [&](const Jet& s, const Jet& weight) { sum->add_fold(basis.rows_at(s), s, weight); });
   return {first.total(basis), second.total(basis)};
 }
 

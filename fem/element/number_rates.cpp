@@ -83,41 +83,119 @@ struct ElementBatch<D>::NumberRates {
     add_back(by_d, m, rate);
   }
 
-  // The axial forces are stresses on y = (I, eps_A, eps_B): phi = sigma.x. Here sigma comes from the means of
-  // the law and of damping, and x are the multipliers of dI/de, deps_A/de and deps_B/de.
+  // phi = sigma e_k.x with e_k = sum_g w_g eps_g and x = sum_g w_g r_s.d_s; w: weights in_strain of the
+  // points. `on`: sigma; `by`, `by_rate`: derivatives of phi by e_k and by its rate, at fixed x.
+  NURBEAM_WITHIN void add_of_coefficient(int k, const Lanes8& on, const Lanes8& by,
+                                         const Lanes8& by_rate) const {
+    for (int g = 0; g < FixedLanes::points; ++g) {
+      const FixedLanes::Point& p = kernel.formulas.points[g];
+      const Lanes8& w = p.in_strain[k - 1];
+      const Components<D, Lanes8> none{}, rs = Formulas::combination(e, p.S1);
+      const Pair slope = pair(rs, none), d_s = pair(Formulas::combination(m, p.S1), none);
+      Pair by_z = {}, by_d = {};
+      add(w * by, slope, by_z);
+      add(w * on, d_s, by_z);
+      add(w * on, slope, by_d);
+      if (kernel.formulas.law.is_damped()) {
+        Pair by_z_rate = {};
+        add(w * by_rate, pair(Formulas::combination(e_rate, p.S1), none), by_z);
+        add(w * by_rate, slope, by_z_rate);
+        add_back(by_z_rate, e_rate, rates.at[g]);
+      }
+      rates.at[g].eps0 -= w * by;
+      add_back(by_z, e, rates.at[g]);
+      add_back(by_d, m, rates.at[g]);
+    }
+  }
+
+  // Derivatives of sigma.x by (mean, a, b), at fixed x.
+  NURBEAM_WITHIN std::array<Lanes8, 3> by_strain(const AxialMeans<Lanes8>& of,
+                                                 const std::array<Lanes8, 3>& x) const {
+    const Lanes8& l = kernel.formulas.sums.length;
+    return {of.m00 * x[0] + l * (of.m0a * x[1] + of.m0b * x[2]),
+            of.m0a * x[0] + l * (of.maa * x[1] + of.mab * x[2]),
+            of.m0b * x[0] + l * (of.mab * x[1] + of.mbb * x[2])};
+  }
+  // A number on a and one on b as one on part i of both.
+  NURBEAM_WITHIN Lanes8 on_part(int i, const Lanes8& on_a, const Lanes8& on_b) const {
+    const AssumedEnds<Lanes8>& ends = kernel.formulas.sums.ends;
+    return on_a * ends.a[i] + on_b * ends.b[i];
+  }
+
+  // The axial forces are stresses on y = (I, a, b): phi = sigma.x. Here sigma comes from the means of the law
+  // and of damping, and x are the multipliers of dI/de, da/de and db/de. The end values a, b have parts in
+  // eps_A, eps_B, the mean I/l, e_1 and e_2.
   NURBEAM_WITHIN void add_of_axial_forces() const {
     const Formulas& of = kernel.formulas;
     if (!of.assumed) return;
     const BeamProperties& beam = of.beam;
     const Lanes8 l = of.sums.length;
     const auto [I_e, I] = of.stretch(e);
-    const Lanes8 x_I = Formulas::sum_of_products(I_e, m), x_A = dot(e[1], m[1]), x_B = dot(e[3], m[3]);
-    const AxialMeans<Lanes8> means = axial_means<GaussRule>(beam, of.assumed_strain(e, I), of.free_strain);
-    // Derivatives of sigma.x by I (and the mean I/l), eps_A and eps_B, at fixed x.
-    const Lanes8 by_mean = means.m00 * x_I + l * (means.m0a * x_A + means.m0b * x_B);
-    Lanes8 on_I = means.by_0, by_l = means.by_a * x_A + means.by_b * x_B - I / (l * l) * by_mean;
+    const typename Formulas::Moments moments = of.moments(e);
+    const std::array<Lanes8, 3> x = of.axial_rates(e, m, I_e, moments);
+    const AxialMeans<Lanes8> means = of.axial_means(e, I, moments);
+    const std::array<Lanes8, 3> by = by_strain(means, x);
+    const Lanes8 by_mean = by[0] + on_part(2, by[1], by[2]);
+    Lanes8 on_I = means.by_0, on_a = l * means.by_a, on_b = l * means.by_b;
+    Lanes8 by_l = means.by_a * x[1] + means.by_b * x[2] - I / (l * l) * by_mean;
+    std::array<Lanes8, 3> by_rates = {};
     Lanes8 by_I_rate = {};
     if (beam.damping > 0) {
-      const Lanes8 I_rate = Formulas::sum_of_products(I_e, e_rate);
-      const AxialMeans<Lanes8> damping = viscous_axial_means(
-          beam, AssumedStrainOf<Lanes8>(I_rate, dot(e[1], e_rate[1]), dot(e[3], e_rate[3]), l));
-      const Lanes8 rate_by_mean = damping.m00 * x_I + l * (damping.m0a * x_A + damping.m0b * x_B);
+      const std::array<Lanes8, 3> y_rate = of.axial_rates(e, e_rate, I_e, moments);
+      const AxialMeans<Lanes8> damping = of.axial_damping(y_rate);
+      by_rates = by_strain(damping, x);
+      const Lanes8 rate_by_mean = by_rates[0] + on_part(2, by_rates[1], by_rates[2]);
       on_I += damping.by_0;
-      by_l += damping.by_a * x_A + damping.by_b * x_B - I_rate / (l * l) * rate_by_mean;
+      on_a += l * damping.by_a;
+      on_b += l * damping.by_b;
+      by_l += damping.by_a * x[1] + damping.by_b * x[2] - y_rate[0] / (l * l) * rate_by_mean;
       by_I_rate = rate_by_mean / l;
     }
-    const Lanes8 by_I = by_mean / l;
+    const Lanes8 on_mean = on_part(2, on_a, on_b), by_I = by_mean / l;
+    on_I += on_mean / l;
+    by_l -= on_mean * x[0] / (l * l);
     rates.sum.strain0[0] -= by_I;
-    rates.sum.strain0[1] -= means.m0a * x_I + l * (means.maa * x_A + means.mab * x_B);
-    rates.sum.strain0[2] -= means.m0b * x_I + l * (means.mab * x_A + means.mbb * x_B);
+    rates.sum.strain0[1] -= on_part(0, by[1], by[2]);
+    rates.sum.strain0[2] -= on_part(1, by[1], by[2]);
     rates.sum.length += by_l - (0.5 + of.free_strain) * by_I;
+    for (int k = 1; k <= of.own_slopes; ++k)
+      add_of_coefficient(k, on_part(2 + k, on_a, on_b), on_part(2 + k, by[1], by[2]),
+                         on_part(2 + k, by_rates[1], by_rates[2]));
     const Nodes from_start = Formulas::from_start(e);
     for (int k = 0; k < 4; ++k) {
-      Components<D, Lanes8> by;
+      Components<D, Lanes8> by_G;
       for (int d = 0; d < D; ++d)
-        by[d] = on_I * m[k][d] + 0.5 * by_I * from_start[k][d] + by_I_rate * e_rate[k][d];
-      for (int i = 1; i < 4; ++i) rates.sum.stretch[i][k] += dot(from_start[i], by);
+        by_G[d] = on_I * m[k][d] + 0.5 * by_I * from_start[k][d] + by_I_rate * e_rate[k][d];
+      for (int i = 1; i < 4; ++i) rates.sum.stretch[i][k] += dot(from_start[i], by_G);
     }
+  }
+
+  // FoldResistance: phi = l F.x with the forces F(e_3, e_4) and x the multipliers of de_3/de and de_4/de.
+  NURBEAM_WITHIN void add_of_fold() const {
+    const Formulas& of = kernel.formulas;
+    if (!of.folds(e)) return;
+    const Lanes8 l = of.sums.length;
+    const typename Formulas::Function third = of.coefficient(e, 3), fourth = of.coefficient(e, 4);
+    const FoldStresses<Lanes8> fold = of.fold_stresses(third, fourth);
+    const std::array<Lanes8, 2> x{Formulas::sum_of_products(third.by_e, m),
+                                  Formulas::sum_of_products(fourth.by_e, m)};
+    std::array<Lanes8, 2> on = fold.force;
+    std::array<std::array<Lanes8, 2>, 2> by_e = fold.stiffness, by_rate = {};
+    if (of.beam.damping > 0) {
+      const std::array<Lanes8, 2> rate{Formulas::sum_of_products(third.by_e, e_rate),
+                                       Formulas::sum_of_products(fourth.by_e, e_rate)};
+      const std::array<Lanes8, 2> viscous = fold.viscous_force(rate);
+      const auto viscous_by_e = fold.viscous_force_by_e(rate);
+      by_rate = fold.viscosity();
+      for (int i = 0; i < 2; ++i) {
+        on[i] += viscous[i];
+        for (int j = 0; j < 2; ++j) by_e[i][j] += viscous_by_e[i][j];
+      }
+    }
+    rates.sum.length += dot(on, x);
+    for (int i = 0; i < 2; ++i)
+      add_of_coefficient(3 + i, l * on[i], l * (by_e[0][i] * x[0] + by_e[1][i] * x[1]),
+                         l * (by_rate[0][i] * x[0] + by_rate[1][i] * x[1]));
   }
 
   NURBEAM_WITHIN void add(const State& state, const Vector& load) const {
@@ -130,6 +208,7 @@ struct ElementBatch<D>::NumberRates {
     }
     for (int g = 0; g < FixedLanes::points; ++g) add_of_point(kernel.formulas.points[g], rates.at[g]);
     add_of_axial_forces();
+    add_of_fold();
   }
 
   NURBEAM_WITHIN static void add(const Kernel& kernel, const State& state, const Vector& load,
@@ -146,7 +225,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<2>::add_number_rates(const State& 
                                                                    double free_strain,
                                                                    const double* multipliers,
                                                                    FixedLanes& rates) const {
-  NumberRates::add({*this, free_strain, state.sides}, state, load, multipliers, rates);
+  NumberRates::add({*this, free_strain, state}, state, load, multipliers, rates);
 }
 
 template <>
@@ -154,7 +233,7 @@ NURBEAM_FOR_EVERY_PROCESSOR void ElementBatch<3>::add_number_rates(const State& 
                                                                    double free_strain,
                                                                    const double* multipliers,
                                                                    FixedLanes& rates) const {
-  NumberRates::add({*this, free_strain, state.sides}, state, load, multipliers, rates);
+  NumberRates::add({*this, free_strain, state}, state, load, multipliers, rates);
 }
 
 }  // namespace nurbeam

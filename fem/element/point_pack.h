@@ -7,11 +7,13 @@
 namespace nurbeam {
 
 /// Numbers of a point of an element with fixed ends: first and second derivatives of the shape functions,
-/// weight [m], curvature of the stress-free shape [1/m] and strain of its label.
+/// weight [m], curvature of the stress-free shape [1/m] and strain of its label; weights of the axial strain
+/// there in its Legendre coefficients e_1..e_4 (strain_weights).
 template <class P>
 struct PointNumbers {
   std::array<P, 4> S1, S2;
   P weight, kappa0, eps0;
+  std::array<P, 4> in_strain;
 };
 
 /// One number at each Gauss point of a part of an element, side by side; a last lane makes the count even,

@@ -1,6 +1,8 @@
 #include "fem/forces/friction_law.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nurbeam {
 
@@ -12,38 +14,66 @@ struct OfSlopes {
   Eigen::Vector3d by_left, by_right;
 };
 
-// phi(mu, theta) for c = |t1 + t2| = 2 cos(theta/2), and its derivative by c.
-std::pair<double, double> bound_factor(Friction::Law law, double mu, double c) {
-  if (law == Friction::Law::coulomb) return {2 * mu / c, -2 * mu / (c * c)};
-  const double half = std::acos(std::min(1.0, c / 2)), sine = std::sin(half);
-  constexpr double small = 1e-4;
-  if (half < small) return {mu * (1 + half * half * (1 - 2 * mu * mu) / 6), -mu * (1 - 2 * mu * mu) / 6};
-  const double tanh = std::tanh(mu * half);
-  const double by_half = (mu * (1 - tanh * tanh) - tanh * std::cos(half) / sine) / sine;
-  return {tanh / sine, -by_half / (2 * sine)};
-}
-
 // The bound without F_c, with its derivative by the force besides.
 struct Bound : OfSlopes {
   Eigen::Vector3d by_force;
 };
 
-Bound normal_bound(const FrictionOfBody& body, const FrictionPoint& at, double mu) {
-  const double a = at.left.norm(), b = at.right.norm();
-  const Eigen::Vector3d t1 = at.left / a, t2 = at.right / b, sum = t1 + t2;
-  const double c = sum.norm();
+// Unit tangents on both sides, and how a derivative by one becomes one by its slope.
+struct Tangents {
+  double a, b;
+  Eigen::Vector3d t1, t2;
+
+  explicit Tangents(const FrictionPoint& at)
+      : a(at.left.norm()), b(at.right.norm()), t1(at.left / a), t2(at.right / b) {}
+  Eigen::Vector3d by_left(const Eigen::Vector3d& by_t1) const { return (by_t1 - t1 * t1.dot(by_t1)) / a; }
+  Eigen::Vector3d by_right(const Eigen::Vector3d& by_t2) const { return (by_t2 - t2 * t2.dot(by_t2)) / b; }
+};
+
+// Of the force across the bisector m of the tangents, phi = 2 mu / c with c = |t1 + t2| = 2 cos(theta/2).
+Bound coulomb_bound(const FrictionOfBody& body, const FrictionPoint& at, double mu) {
+  const Tangents t(at);
+  const Eigen::Vector3d sum = t.t1 + t.t2;
+  const double c = sum.norm(), phi = 2 * mu / c, phi_c = -phi / c;
   const Eigen::Vector3d m = sum / c;
   const double along = at.force.dot(m), e = body.least_force;
   const Eigen::Vector3d across = at.force - along * m;
   const double root = std::sqrt(across.squaredNorm() + e * e), normal = root - e;
-  const auto [phi, phi_c] = bound_factor(body.friction->law, mu, c);
   // dN = (across . dforce - along force_across . dm) / root, dm = (I - m m') (dt1 + dt2) / c,
   // dc = m . (dt1 + dt2).
   const Eigen::Vector3d by_tangent = -phi * along / (root * c) * across + normal * phi_c * m;
-  const auto by_slope = [&](const Eigen::Vector3d& t, double length) -> Eigen::Vector3d {
-    return (by_tangent - t * t.dot(by_tangent)) / length;
-  };
-  return {{phi * normal, by_slope(t1, a), by_slope(t2, b)}, phi / root * across};
+  return {{phi * normal, t.by_left(by_tangent), t.by_right(by_tangent)}, phi / root * across};
+}
+
+// The capstan's phi, and its derivative by x = sin^2(theta/2) = |t2 - t1|^2/4. For theta/2 = h:
+// dphi/dh = (1 - tau^2) s (mu s - tau c)/S^3, with s = sin h, c = cos h and S^2 = s^2 + tau^2 c^2.
+std::pair<double, double> capstan_factor(double mu, double s, double c) {
+  constexpr double small = 1e-4, least_cosine = 1e-6;
+  if (s < small) return {mu / std::sqrt(1 + mu * mu) * (1 + s * s / 6), mu / (6 * std::sqrt(1 + mu * mu))};
+  const double tau = std::tanh(mu * std::atan2(s, c)), S = std::sqrt(s * s + tau * tau * c * c);
+  return {tau / S, (1 - tau * tau) * (mu * s - tau * c) / (2 * std::max(c, least_cosine) * S * S * S)};
+}
+
+// Of the whole force.
+Bound whole_bound(const FrictionOfBody& body, const FrictionPoint& at, double mu) {
+  const Tangents t(at);
+  const Eigen::Vector3d turn = t.t2 - t.t1;
+  const bool capstan = body.friction->law == Friction::Law::capstan;
+  const auto [phi, phi_x] =
+      capstan ? capstan_factor(mu, turn.norm() / 2, (t.t1 + t.t2).norm() / 2) : std::pair(mu, 0.0);
+  const double e = body.least_force, root = std::sqrt(at.force.squaredNorm() + e * e), whole = root - e;
+  const Eigen::Vector3d by_turn = whole * phi_x / 2 * turn;
+  return {{phi * whole, t.by_left(-by_turn), t.by_right(by_turn)}, phi / root * at.force};
+}
+
+// F_c by time and by travel, and its derivative by the place.
+std::pair<double, double> brake(const FrictionOfBody& body, const FrictionPoint& at) {
+  const Friction& friction = *body.friction;
+  const double force = friction.force.empty() ? 0 : value_and_slope(friction.force, at.t).first;
+  if (friction.force_over.empty()) return {force, 0};
+  const double travel = at.s - body.start;
+  const auto [more, slope] = value_and_slope(friction.force_over, std::abs(travel));
+  return {force + more, travel < 0 ? -slope : slope};
 }
 
 }  // namespace
@@ -56,8 +86,9 @@ FrictionForce friction_force(const FrictionOfBody& body, const FrictionPoint& at
   const Eigen::Vector3d l_left = at.left / (2 * a), l_right = at.right / (2 * b);
   const double moved = at.s - before.s;
   const double mu = before.slides == 0 ? friction.sticking_coefficient() : friction.coefficient;
-  const Bound normal = normal_bound(body, at, mu);
-  const double F_c = friction.force.empty() ? 0 : value_and_slope(friction.force, at.t).first;
+  const Bound normal =
+      friction.law == Friction::Law::coulomb ? coulomb_bound(body, at, mu) : whole_bound(body, at, mu);
+  const auto [F_c, F_c_by_s] = brake(body, at);
 
   FrictionForce f{};
   f.per_along = l;
@@ -80,6 +111,7 @@ FrictionForce friction_force(const FrictionOfBody& body, const FrictionPoint& at
     return f;
   }
   if (f.bound > 0) {
+    f.by_s = -way * l * F_c_by_s;
     f.by_force = -way * l * normal.by_force;
     f.by_left -= way * l * normal.by_left;
     f.by_right -= way * l * normal.by_right;

@@ -24,7 +24,8 @@ struct FrictionPoint {
 struct FrictionOfBody {
   const Friction* friction;
   double stiffness, damping;  ///< stiffness k [N/m] and damping d [N s/m] of the stick
-  double least_force;         ///< e, the force below which F_n is rounded off [N]
+  double least_force;         ///< e, the force below which F_n and R are rounded off [N]
+  double start = 0;           ///< place from which its travel counts [m]
 };
 
 /// The generalised force Q on the place of a body, with its derivatives by all of a FrictionPoint but t.
@@ -33,8 +34,10 @@ struct FrictionOfBody {
 /// F_n = |force - m m.force|. Then Q = l F.
 /// While the body sticks, F = -k z* - (d + c) l rate with z* = z + l (s - s_n); it sticks as long as
 /// |k z* + d l rate| <= B. While it slides, F = -+B - c l rate.
-/// The bound is B = phi(mu, theta) F_n + F_c, with phi = mu / cos(theta/2), or by the capstan's law
-/// tanh(mu theta/2) / sin(theta/2). For F_n stands sqrt(F_n^2 + e^2) - e, where e is the least force.
+/// The bound is B = phi N + F_c. By Coulomb's law N = F_n and phi = mu / cos(theta/2). By the capstan's law N
+/// is the whole force R = T2 t2 - T1 t1, and T2/T1 = exp(mu theta) gives phi = tau / sqrt(sin^2(theta/2) +
+/// tau^2 cos^2(theta/2)) with tau = tanh(mu theta/2), for every angle. A bearing has N = R and phi = mu. For
+/// N stands sqrt(N^2 + e^2) - e, where e is the least force.
 struct FrictionForce {
   double along;           ///< F, the jump of the beam's tension, positive towards its end [N]
   double value;           ///< Q [N]

@@ -12,8 +12,9 @@ SlidingFriction<D>::SlidingFriction(const MeshedBeams<D>& at, const Eigen::Vecto
     : rider_(rider) {
   const Rider& sliding = at.structure.riders[rider];
   const double mass = at.structure.body_of(sliding).mass;
-  body_ = {&*sliding.friction, sliding.friction->stiffness(mass), sliding.friction->stick_damping(mass),
-           1e-9 * mass * at.structure.gravity.norm() + 1e-12};
+  const double k = at.structure.stick_stiffness(sliding);
+  body_ = {&*sliding.friction, k, Friction::stick_damping(k, mass),
+           1e-9 * mass * at.structure.gravity.norm() + 1e-12, sliding.s};
   multiplier_ = first_multiplier;
   place_ = at.mesh.riders[rider].place;
   const double s = at.mesh.plan.places[rider];

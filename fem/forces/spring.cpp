@@ -9,16 +9,20 @@ namespace nurbeam {
 ConnectorPull::ConnectorPull(const Connector& connector, double stretch, double rate, bool taut,
                              std::optional<bool> carries) {
   const int sign = connector.sign();
-  const double k = connector.stiffness, c = sign != 0 && !taut ? 0 : connector.damping;
+  const double c = sign != 0 && !taut ? 0 : connector.damping;
   const bool stretched = carries.value_or(sign == 0 || sign * stretch > 0);
-  if (stretched) elastic = k * stretch;
   if (!stretched && c == 0) return;
-  force = k * stretch + c * rate;
+  const ForceRows::Point law = connector.elastic(stretch);
+  if (stretched) {
+    elastic = law.force;
+    energy = law.energy;
+  }
+  force = law.force + c * rate;
   if (!carries.has_value() && sign != 0 && !(sign * force > 0)) {
     force = 0;
     return;
   }
-  by_stretch = k;
+  by_stretch = law.stiffness;
   by_rate = c;
 }
 
@@ -64,7 +68,7 @@ typename Spring<D>::Matrix Spring<D>::tangent(const MeshedBeams<D>& at, const St
 template <int D>
 void Spring<D>::add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const {
   const Line line = axis_.line(state);
-  sum.spring += pull(at, line, state).elastic * (line.length - described(at).length) / 2;
+  sum.spring += pull(at, line, state).energy;
 }
 
 template <int D>

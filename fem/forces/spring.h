@@ -16,7 +16,8 @@ namespace nurbeam {
 /// where a solver prescribes this instead of the sign of the stretch.
 struct ConnectorPull {
   double force = 0;    ///< N [N]
-  double elastic = 0;  ///< elastic part k e of N, whose energy is stored [N]
+  double elastic = 0;  ///< elastic part F(e) of N [N]
+  double energy = 0;   ///< of the elastic part [J]
   double by_stretch = 0, by_rate = 0;
 
   ConnectorPull(const Connector& connector, double stretch, double rate, bool taut,

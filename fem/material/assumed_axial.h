@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <variant>
 
 #include "fem/material/section.h"
@@ -13,7 +14,8 @@ namespace nurbeam {
 ///   c2 = (eps_A + eps_B)/2 - c0.
 ///
 /// Two conditions an element, on four (in space six) new unknowns: it can bend without stretching, where the
-/// pointwise strain, a quartic, leaves nothing for bending as EA L^2/EI grows.
+/// pointwise strain, a quartic, leaves nothing for bending as EA L^2/EI grows. The end values are those of
+/// AssumedEnds where a slope belongs to the element alone.
 template <class T>
 struct AssumedStrainOf {
   T c0, c1, c2;
@@ -34,6 +36,46 @@ struct AssumedStrainOf {
   }
 };
 using AssumedStrain = AssumedStrainOf<double>;
+
+/// The ends of an element whose slope belongs to no other element: a free end.
+struct OwnSlopes {
+  bool at_a = false, at_b = false;
+
+  int count() const { return static_cast<int>(at_a) + static_cast<int>(at_b); }
+  bool operator==(const OwnSlopes&) const = default;
+};
+
+/// The Legendre coefficients of the pointwise strain over an element, e_k = (2k + 1)/l int eps P_k(2 xi - 1)
+/// ds.
+template <class T>
+using StrainCoefficients = std::array<T, 5>;
+
+/// The weights in e_0..e_4 of the strain at a point s of an element that begins at s_a and is l long;
+/// `weight` is that of the point in an integral over the element [m].
+template <class T>
+StrainCoefficients<T> strain_weights(const T& s, const T& weight, const T& s_a, const T& l) {
+  const T x = 2. * ((s - s_a) / l) - 1., square = x * x, part = weight / l;
+  return {part, 3. * (part * x), 2.5 * (part * (3. * square - 1.)), 3.5 * (part * (x * (5. * square - 3.))),
+          1.125 * (part * (square * (35. * square - 30.) + 3.))};
+}
+
+/// The end values of the assumed strain as sums over (eps_A, eps_B, e_0, e_1, e_2). Where an element shares
+/// its slope the value is that of eps. The stress that goes with it, on the slope alone, is balanced by the
+/// next element. On a slope of the element's own nothing would balance it: where the axial force falls along
+/// the element it pushes, and a rope that hangs freely would curl up. There the first moment of eps takes the
+/// place of the end value,
+///
+///   c1 = e_1,  c2 = eps_A - c0 + c1 (own slope at B),  c2 = eps_B - c0 - c1 (at A),  c2 = e_2 (at both).
+template <class T>
+struct AssumedEnds {
+  std::array<T, 5> a, b;
+};
+inline AssumedEnds<double> assumed_ends(const OwnSlopes& own) {
+  if (own.at_a && own.at_b) return {{0, 0, 1, -1, 1}, {0, 0, 1, 1, 1}};
+  if (own.at_a) return {{0, 1, 0, -2, 0}, {0, 1, 0, 0, 0}};
+  if (own.at_b) return {{1, 0, 0, 0, 0}, {1, 0, 0, 2, 0}};
+  return {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}};
+}
 
 /// Means over an element of psi and its derivatives at eps_hat, times the functions phi in
 /// eps_hat = phi_0 I/l + phi_A eps_A + phi_B eps_B: phi_0 = 6 xi (1 - xi), phi_A = (1 - xi)(1 - 3 xi),
@@ -63,17 +105,21 @@ NURBEAM_WITHIN AxialMeans<T> linear_axial_means(double stiffness, const AssumedS
 }
 
 /// The means of the beam's law at a strain less the free strain, by the quadrature `Rule` where the law is
-/// not linear.
+/// not linear. `buckling`: the compressive strain at which an element buckles, if its beam does.
 template <class Rule, class T>
 NURBEAM_WITHIN AxialMeans<T> axial_means(const BeamProperties& beam, const AssumedStrainOf<T>& strain,
-                                         double free) {
-  if (std::holds_alternative<GreenLaw>(beam.law)) return linear_axial_means(beam.axial_stiffness, strain);
+                                         double free, const T& buckling) {
+  const bool buckles = beam.compression == Compression::buckles;
+  if (std::holds_alternative<GreenLaw>(beam.law) && !buckles)
+    return linear_axial_means(beam.axial_stiffness, strain);
   AxialMeans<T> sum{zero<T>(), zero<T>(), zero<T>(), zero<T>(), zero<T>(),
                     zero<T>(), zero<T>(), zero<T>(), zero<T>(), zero<T>()};
   for (int g = 0; g < Rule::size; ++g) {
     const double xi = Rule::points[g], w = Rule::weights[g];
     const double of_0 = 6 * xi * (1 - xi), of_a = (1 - xi) * (1 - 3 * xi), of_b = xi * (3 * xi - 2);
-    const AxialPoint<T> point = axial_point<T>(beam.law, beam.axial_stiffness, strain.at(xi), free);
+    const AxialPoint<T> point =
+        buckles ? buckling_point<T>(beam.law, beam.axial_stiffness, strain.at(xi), free, buckling)
+                : axial_point<T>(beam.law, beam.axial_stiffness, strain.at(xi), free);
     sum.energy += w * point.energy;
     sum.by_0 += w * of_0 * point.force;
     sum.by_a += w * of_a * point.force;
@@ -126,8 +172,9 @@ class AssumedAxialEnergy {
 
 /// The axial energy of an element by its beam's law.
 template <class Rule>
-AssumedAxialEnergy assumed_axial_energy(const BeamProperties& beam, const Eigen::Vector4d& y, double free) {
-  return {axial_means<Rule>(beam, AssumedStrain(y[0], y[1], y[2], y[3]), free), y};
+AssumedAxialEnergy assumed_axial_energy(const BeamProperties& beam, const Eigen::Vector4d& y, double free,
+                                        double buckling = 0) {
+  return {axial_means<Rule>(beam, AssumedStrain(y[0], y[1], y[2], y[3]), free, buckling), y};
 }
 
 /// Kelvin-Voigt damping of the assumed strain with viscosity c EA: the generalised stress c H x' of

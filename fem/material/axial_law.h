@@ -26,4 +26,10 @@ NURBEAM_WITHIN AxialPoint<T> axial_point(const AxialLaw& law, double EA, const T
   return point;
 }
 
+/// The engineering strain of a free beam under a force [N]; `EA` per its own length [N].
+inline double stretch_under(const AxialLaw& law, double EA, double force) {
+  const auto* rows = std::get_if<ForceOverStretch>(&law);
+  return rows ? rows->rows().stretch(force) : force / EA;
+}
+
 }  // namespace nurbeam

@@ -1,17 +1,22 @@
 #pragma once
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "fem/material/axial_point.h"
+#include "fem/material/force_rows.h"
 
 namespace nurbeam {
 
-/// A law F(e) by rows (engineering strain e [-], force F [N]), joined by a C1 cubic that grows where the rows
-/// do, and straight beyond them. The rows hold for the unstressed beam: no EA enters.
+/// A law F(e) by rows (engineering strain e [-], force F [N]). The rows hold for the unstressed beam: no EA
+/// enters.
 class ForceOverStretch {
  public:
-  /// Throws std::invalid_argument unless there are at least two rows, and both numbers increase.
-  explicit ForceOverStretch(std::vector<std::pair<double, double>> rows);
+  /// Throws std::invalid_argument for rows that do not increase, or that begin at -1 or below.
+  explicit ForceOverStretch(std::vector<std::pair<double, double>> rows) : rows_(std::move(rows)) {
+    if (rows_.rows().front().first <= -1)
+      throw std::invalid_argument("the first row has a stretch of -1 or less; at -1 a beam has no length");
+  }
 
   template <class T>
   AxialPoint<T> operator()(double, const T& strain, double free) const {
@@ -19,25 +24,19 @@ class ForceOverStretch {
         strain, free,
         [this](const T& e) {
           return AxialPoint<T>{each(
-                                   e, [this](double x) { return at(x).energy; }),
+                                   e, [this](double x) { return rows_.at(x).energy; }),
                                each(
-                                   e, [this](double x) { return at(x).force; }),
+                                   e, [this](double x) { return rows_.at(x).force; }),
                                each(
-                                   e, [this](double x) { return at(x).stiffness; })};
+                                   e, [this](double x) { return rows_.at(x).stiffness; })};
         });
   }
 
-  /// W, F and F' at an engineering strain; W(0) = 0.
-  AxialPoint<double> at(double e) const;
-  const std::vector<std::pair<double, double>>& rows() const { return rows_; }
-  bool operator==(const ForceOverStretch& other) const { return rows_ == other.rows_; }
+  const ForceRows& rows() const { return rows_; }
+  bool operator==(const ForceOverStretch&) const = default;
 
  private:
-  AxialPoint<double> from_start(double e) const;
-
-  std::vector<std::pair<double, double>> rows_;
-  std::vector<double> slopes_, energies_;  ///< at the rows; energies counted from the first row
-  double energy_at_zero_ = 0;
+  ForceRows rows_;
 };
 
 }  // namespace nurbeam

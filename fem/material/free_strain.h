@@ -8,8 +8,8 @@ namespace nurbeam {
 struct FreeStrain {
   double constant = 0;     ///< (lambda^2 - 1)/2 of the unstressed length over the drawn one, lambda
   TimeTable thermal = {};  ///< thermal expansion over time; empty: none
-  /// -S_0/EA of a beam that carries the axial force S_0 as drawn: the energy S_0 eps + EA eps^2/2, plus a
-  /// constant. It is no load: State::load does not scale it.
+  /// Of a beam that carries the axial force S_0 as drawn; by Green's law -S_0/EA, and the energy is S_0 eps +
+  /// EA eps^2/2, plus a constant. It is no load: State::load does not scale it.
   double of_tension = 0;
 
   double at(double t) const {

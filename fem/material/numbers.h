@@ -15,6 +15,8 @@ NURBEAM_WITHIN double square_root(double a) { return std::sqrt(a); }
 NURBEAM_WITHIN double positive(double a) { return a > 0 ? a : 0; }
 /// 1 where the number is 0, else 0.
 NURBEAM_WITHIN double is_zero(double a) { return a == 0 ? 1 : 0; }
+/// The largest of the numbers side by side.
+NURBEAM_WITHIN double largest(double a) { return a; }
 /// `f` of each of the numbers side by side.
 template <class Function>
 double each(double a, const Function& f) {

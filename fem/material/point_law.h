@@ -67,11 +67,16 @@ struct SectionForces {
 
 /// `eps`: the axial strain that the section carries; eps0: that of the drawing; `free`: the free strain. The
 /// assumed strain of a coarse element can compress a section to nothing, eps <= -1/2: the section then
-/// carries no force.
-inline SectionForces section_forces(const BeamProperties& beam, double eps, double eps0, double free) {
+/// carries no force. `buckling`: see axial_means.
+inline SectionForces section_forces(const BeamProperties& beam, double eps, double eps0, double free,
+                                    double buckling = 0) {
+  const double strain = eps - eps0 - free;
+  const AxialPoint<double> point =
+      beam.compression == Compression::buckles
+          ? buckling_point(beam.law, beam.axial_stiffness, strain, free, buckling)
+          : axial_point(beam.law, beam.axial_stiffness, strain, free);
   return {(eps - free) / (1 + 2 * beam.free_strain.constant),
-          axial_point(beam.law, beam.axial_stiffness, eps - eps0 - free, free).force *
-              std::sqrt(std::max(0.0, 1 + 2 * eps))};
+          point.force * std::sqrt(std::max(0.0, 1 + 2 * eps))};
 }
 
 /// The viscosity eta = beta S of the tension S at a mean strain less the free strain, and d(eta)/d(strain) [N

@@ -5,6 +5,7 @@
 
 #include "fem/material/axial_law.h"
 #include "fem/material/axial_strain.h"
+#include "fem/material/compression.h"
 #include "fem/material/curvature_measure.h"
 #include "fem/material/free_strain.h"
 
@@ -44,6 +45,10 @@ struct SectionStiffness {
   double torsion = 0;                   ///< GJ [N m^2]
   double spin_inertia = 0;              ///< rho (I_x + I_y) [kg m]
 
+  /// Curvatures that couples about d1 and d2 bend the axis to [1/m].
+  double curvature_1(double couple) const { return couple / bending_1; }
+  double curvature_2(double couple) const { return couple / bending_2; }
+
   bool operator==(const SectionStiffness&) const = default;
 };
 
@@ -58,6 +63,7 @@ struct BeamProperties {
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
   AxialLaw law = GreenLaw();
+  Compression compression = Compression::full;    ///< buckles: needs AxialStrain::ends_and_mean
   std::optional<SectionStiffness> sections = {};  ///< for a beam with torsion, in space
   FreeStrain free_strain = {};                    ///< needs AxialStrain::ends_and_mean
 
@@ -66,13 +72,18 @@ struct BeamProperties {
     return axial_strain == AxialStrain::pointwise ? axial_stiffness : 0;
   }
   /// Axial force S_0 in the drawing [N], for a beam whose free strain comes from S_0.
-  double drawn_tension() const { return -free_strain.of_tension * axial_stiffness; }
-  /// Gives the beam the axial force S_0 [N] as drawn.
-  void set_drawn_tension(double S_0) { free_strain.of_tension = -S_0 / axial_stiffness; }
+  double drawn_tension() const;
+  /// Gives a beam that is drawn as long as it is free the axial force S_0 [N] as drawn. Its law and its EA
+  /// then hold for the length that it has when free. Throws std::invalid_argument where S_0 leaves no length.
+  void set_drawn_tension(double S_0);
+  /// EA of the free beam, per its own length [N].
+  double free_axial_stiffness() const;
   /// Whether bending under a tension [N] reaches less far than a length [m]: sqrt(EI/tension) < length.
   bool bends_within(double length, double tension) const {
     return bending_stiffness < length * length * tension;
   }
+  /// EA/l of a length [m] of the beam [N/m].
+  double stiffness_of_length(double length) const { return axial_stiffness / length; }
   /// EA eps of a small strain [N]
   double force_of_strain(double strain) const { return axial_stiffness * strain; }
   /// EA eps^2/2 of a small strain [J/m].
@@ -87,9 +98,22 @@ struct BeamProperties {
     const double stiffness = least_bending_stiffness();
     return stiffness > 0 ? std::sqrt(2 * std::max(energy_per_length, 0.0) / stiffness) : 0;
   }
+  /// The compressive strain at which a length [m] between two nodes buckles; 0 where nothing resists bending.
+  double buckling_strain(double length) const {
+    return Buckling::load * least_bending_stiffness() / (length * length * axial_stiffness);
+  }
   /// Energy of bending a length [m] evenly by an angle [rad], in the direction that is softest [J].
   double bent_energy(double angle, double length) const {
     return least_bending_stiffness() * angle * angle / (2 * length);
+  }
+  /// The radius of a disk that bends and stretches as easily [m].
+  double radius_of_disk() const { return 2 * std::sqrt(least_bending_stiffness() / axial_stiffness); }
+  bool resists_bending() const { return least_bending_stiffness() > 0; }
+  /// Curvature that a couple bends the axis to, of a beam without sections of its own [1/m].
+  double curvature_of(double couple) const { return couple / bending_stiffness; }
+  /// T l^2/EI: how a tension [N] compares with the bending of a length [m].
+  double tension_number(double tension, double length) const {
+    return tension * length * length / least_bending_stiffness();
   }
   bool is_damped() const { return damping > 0 || mass_damping > 0 || tension_damping > 0; }
   /// EI where the axis alone bends: in the plane, and for round sections in space; 0 for a beam with torsion,
@@ -110,6 +134,16 @@ struct BeamProperties {
       own.spin_inertia *= stretch;
     }
     p.free_strain.constant = (stretch * stretch - 1) / 2;
+    return p;
+  }
+
+  /// Properties of a beam that bends that many times as easily about all axes.
+  BeamProperties with_softer_bending(double times) const {
+    BeamProperties p = *this;
+    p.bending_stiffness /= times;
+    if (p.sections)
+      for (double* stiffness : {&p.sections->bending_1, &p.sections->bending_2, &p.sections->bending_product})
+        *stiffness /= times;
     return p;
   }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fem/material/slenderness.h"
+
 namespace nurbeam {
 
 namespace {
@@ -35,7 +37,11 @@ Eigen::Matrix<double, D, 1> drawn_slope_jump(const Beam& beam, const MeshNode& n
   const bool is_break = beam.curve.segment_at(node.s, true) != beam.curve.segment_at(node.s);
   if (!is_break || node.rider >= 0 || node.slope_left != node.slope_right)
     return Eigen::Matrix<double, D, 1>::Zero();
-  return (beam.curve.tangent(node.s, true) - beam.curve.tangent(node.s)).template head<D>();
+  const Eigen::Vector3d jump = beam.curve.tangent(node.s, true) - beam.curve.tangent(node.s);
+  // What is straight when it is free has no corner: an eyelet led it round the drawn one.
+  constexpr double of_drawing = 1e-3;  // greatest angle of a smooth drawing
+  if (beam.curve.straight() && jump.norm() > of_drawing) return Eigen::Matrix<double, D, 1>::Zero();
+  return jump.template head<D>();
 }
 
 template <int D>
@@ -54,6 +60,10 @@ std::array<int, element_size<D>> dofs_of(const Mesh& mesh, const MeshSpan& span)
   return dofs;
 }
 
+const BeamProperties& properties_of(const Beam& beam, const MeshSpan& span) {
+  return beam.properties_at((span.s_a + span.s_b) / 2);
+}
+
 // The section charts that the plan has for a span; null where they are those of the drawing.
 const MeshPlan::SectionCharts* charts_in(const MeshPlan& plan, const MeshSpan& span) {
   for (const MeshPlan::SectionCharts& now : plan.section_charts)
@@ -70,8 +80,9 @@ TwistElement twist_of(const Mesh& mesh, const MeshElement<3>& e, const Beam& bea
   const Ends ends = e.element.fixed() ? Ends::fixed : Ends::moving;
   const Chart& chart = e.element.chart();
   const double s_a = e.span->s_a, s_b = e.span->s_b;
-  if (now) return {beam.curve, beam.properties, chart, s_a, s_b, ends, now->charts, now->turn};
-  return {beam.curve, beam.properties, chart, s_a, s_b, ends};
+  const BeamProperties& properties = e.element.properties();
+  if (now) return {beam.curve, properties, chart, s_a, s_b, ends, now->charts, now->turn};
+  return {beam.curve, properties, chart, s_a, s_b, ends};
 }
 
 // The sections of an element with their coordinates; null without torsion. `same`: see twist_of.
@@ -110,6 +121,29 @@ bool divided_alike(const Beam& beam, const Beam& other, int segment) {
   }
 }
 
+// The slopes of a span that belong to no other element and turn freely: those of free ends. At hinges and
+// beside kinks the rope is taut, and the end value is right; with moving nodes it conserves more of the
+// energy.
+OwnSlopes own_slopes(const Mesh& mesh, const MeshSpan& span, const Beam& beam) {
+  if (beam.properties.axial_strain == AxialStrain::pointwise || beam.is_ring()) return {};
+  const auto is_free = [&](const MeshNode& node, int of_end) {
+    if (node.rider >= 0 || node.home != of_end) return false;
+    const HomeNode& home = beam.home[static_cast<std::size_t>(node.home)];
+    return home.hold == Hold::nothing && !home.joined;
+  };
+  return {is_free(mesh.node_a(span), 0), is_free(mesh.node_b(span), beam.home_intervals())};
+}
+
+AxialRule axial_rule(const Mesh& mesh, const MeshSpan& span, const Beam& beam) {
+  const double l = beam.home_spacing((span.s_a + span.s_b) / 2);
+  AxialRule rule{.fold_resistance = 0};
+  if (is_slender(beam.properties, l))
+    rule = {.own_slopes = own_slopes(mesh, span, beam), .fold_resistance = 1};
+  if (beam.properties.compression == Compression::buckles)
+    rule.buckling_strain = beam.properties.buckling_strain(l);
+  return rule;
+}
+
 // Finds elements with fixed ends of one mesh in another one, in the order of both.
 template <int D>
 class SameElements {
@@ -122,11 +156,12 @@ class SameElements {
   // The counterpart of a fixed element, or null. In a neighbouring model, which must have as many elements
   // and draw this one alike, the index finds it; else the span does.
   const MeshElement<D>* find(std::size_t index, std::size_t count, const MeshSpan& span, const Chart& chart,
-                             const Beam& beam) {
+                             const AxialRule& rule, const Beam& beam) {
     if (!like_) return nullptr;
     const std::vector<MeshElement<D>>& others = like_->elements;
     if (&like_->structure != structure_)
-      return others.size() == count && axis_is(others[index], span, chart, beam.curve, beam.properties)
+      return others.size() == count && others[index].element.axial_rule() == rule &&
+                     axis_is(others[index], span, chart, beam.curve, properties_of(beam, span))
                  ? &others[index]
                  : nullptr;
     const auto comes_before = [&](const MeshSpan& other) {
@@ -137,7 +172,7 @@ class SameElements {
     const MeshElement<D>& other = others[next_];
     const bool is_same = other.element.fixed() && other.span->beam == span.beam &&
                          other.span->s_a == span.s_a && other.span->s_b == span.s_b &&
-                         other.element.chart() == chart;
+                         other.element.chart() == chart && other.element.axial_rule() == rule;
     return is_same ? &other : nullptr;
   }
 
@@ -197,14 +232,14 @@ class ByEights {
 // The element of a span. `counterpart`: another element of its beam, whose numbers are reused where they are
 // equal; `same`: see twist_of. Both may be null.
 template <int D>
-BeamElement<D> fixed_element(const Beam& beam, Chart chart, const MeshSpan& span,
+BeamElement<D> fixed_element(const Beam& beam, Chart chart, const MeshSpan& span, const AxialRule& rule,
                              const MeshElement<D>* counterpart, const MeshElement<D>* same) {
   const std::array<double, 2> ends = first_alike(beam.curve, chart, span);
   if (counterpart && counterpart->element.fixed() && counterpart->element.chart() == chart &&
-      first_alike(beam.curve, chart, *counterpart->span) == ends)
+      counterpart->element.axial_rule() == rule && first_alike(beam.curve, chart, *counterpart->span) == ends)
     return counterpart->element;
-  if (same) return same->element.on(beam.curve, beam.properties);
-  return {beam.curve, beam.properties, std::move(chart), ends[0], ends[1], Ends::fixed};
+  if (same) return same->element.on(beam.curve, properties_of(beam, span));
+  return {beam.curve, properties_of(beam, span), std::move(chart), ends[0], ends[1], Ends::fixed, rule};
 }
 
 }  // namespace
@@ -226,15 +261,18 @@ std::vector<MeshElement<D>> make_elements(const Structure& structure, const Mesh
           "a beam with the pointwise axial strain is as long as it is drawn when free");
     const Ends ends = span.place_a < 0 && span.place_b < 0 ? Ends::fixed : Ends::moving;
     Chart chart = choose_chart(beam, mesh.plan, span, is_arc_length_span(structure, mesh, i));
+    const AxialRule rule = axial_rule(mesh, span, beam);
     const MeshElement<D>* same =
-        ends == Ends::fixed ? others.find(elements.size(), mesh.spans.size(), span, chart, beam) : nullptr;
+        ends == Ends::fixed ? others.find(elements.size(), mesh.spans.size(), span, chart, rule, beam)
+                            : nullptr;
     const bool of_model = same && &same->element.curve() == &beam.curve;
     elements.push_back(
         {&span, i, dofs_of<D>(mesh, span),
          of_model ? same->slope_offset : drawn_slope_jump<D>(beam, mesh.node_b(span)),
          ends == Ends::fixed
-             ? fixed_element(beam, std::move(chart), span, by_eights.counterpart(span.beam), same)
-             : BeamElement<D>(beam.curve, beam.properties, std::move(chart), span.s_a, span.s_b, ends)});
+             ? fixed_element(beam, std::move(chart), span, rule, by_eights.counterpart(span.beam), same)
+             : BeamElement<D>(beam.curve, properties_of(beam, span), std::move(chart), span.s_a, span.s_b,
+                              ends, rule)});
     if constexpr (D == 3)
       elements.back().twist =
           make_twist(mesh, elements.back(), beam, others.mesh(), of_model ? same : nullptr);
@@ -289,7 +327,7 @@ template <int D>
 bool same_axis(const MeshElement<D>& e, const MeshElement<D>& other, const Beam& beam,
                const Beam& other_beam) {
   constexpr double round_off = 1e-12;
-  if (e.element.fixed() != other.element.fixed() ||
+  if (e.element.fixed() != other.element.fixed() || e.element.axial_rule() != other.element.axial_rule() ||
       !((e.slope_offset - other.slope_offset).norm() <= round_off))
     return false;
   if (e.element.fixed())

@@ -88,6 +88,7 @@ template <int D>
 ElementState<D> gather(const MeshElement<D>& e, const State& state) {
   ElementState<D> x = gather(e, state.q, state.v, state.a);
   x.free_strain = free_strain(e, state);
+  x.stabilisation = state.stabilisation;
   if (state.sides.size() > 0) x.taut = state.sides[e.index] != 0;
   return x;
 }

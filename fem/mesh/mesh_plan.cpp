@@ -23,9 +23,8 @@ int node_to_replace(const Beam& beam, double s) {
   return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
 }
 
-// Whether a body is too light for a moving node. The stored energy changes a little with the place of a
-// moving node, which is a force on the body. A body this light beside its element would be dragged about by
-// that force. The kink that its weight makes is as small.
+}  // namespace
+
 bool too_light_for_node(const Structure& structure, const Rider& rider) {
   constexpr double light = 0.01;
   const Beam& beam = structure.beam_of(rider);
@@ -34,9 +33,8 @@ bool too_light_for_node(const Structure& structure, const Rider& rider) {
          mass <= limit * beam.home_spacing(rider.s);
 }
 
-}  // namespace
-
 Passing passing(const Rider& rider, const HomeNode& node) {
+  if (node.kind == NodeKind::kink) return Passing::as_point;
   if (!node.permanent) return Passing::as_node;
   const bool stays = rider.continuous_slope || node.hold != Hold::nothing || node.kept;
   return stays ? Passing::as_point : Passing::gives_way;
@@ -49,7 +47,7 @@ bool near_as_point(const Structure& structure, const Rider& rider, double s, dou
   const double distance = reach * (beam.home_place(before + 1) - beam.home_place(before));
   const auto near = [&](int h) {
     const HomeNode& node = beam.home_node(h);
-    return std::abs(beam.home_place(h) - s) <= distance && node.kind == NodeKind::smooth &&
+    return std::abs(beam.home_place(h) - s) <= distance && node.is_passed() &&
            passing(rider, node) == Passing::as_point;
   };
   return near(before) || near(before + 1);

@@ -73,6 +73,11 @@ inline constexpr double touching_distance = 3e-6;
 /// way. The second, larger one is that at which it becomes a node again.
 inline constexpr double passing_zone = 0.04, passing_zone_left = 0.05;
 
+/// Whether a body is too light for a moving node where its slope is continuous. The stored energy changes a
+/// little with the place of a moving node, which is a force on the body. A body this light beside its element
+/// would be dragged about by that force. The kink that its weight makes is as small.
+bool too_light_for_node(const Structure& structure, const Rider& rider);
+
 /// Whether a rider at s is carried as a point: it is described so, its beam is a rigid guide, or its body is
 /// too light for a node. So is a rider with a node that it passes as a point within `reach` home element
 /// lengths.

@@ -58,6 +58,8 @@ class PointOnBeam {
   }
 
   double s() const { return s_; }
+  /// Whether its shape is equal in all states.
+  bool is_fixed() const { return fixed_.has_value(); }
   const MeshElement<D>& element(const MeshedBeams<D>& at) const { return at.elements[element_]; }
   std::vector<int> dofs(const MeshedBeams<D>& at) const {
     const auto& dofs = element(at).dofs;

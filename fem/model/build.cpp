@@ -38,7 +38,7 @@ std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& div
 }
 
 // A load across a taut string makes a kink, rounded within the reach sqrt(EI/S) of bending. Where elements
-// are much longer than this reach, a continuous slope would be the coarser model. No body slides over a kink.
+// are much longer than this reach, a continuous slope would be the coarser model.
 void allow_kinks(BeamModel& model, int b) {
   constexpr double short_reach = 0.02;  // part of an element's length
   Beam& beam = model.beams[b];
@@ -49,22 +49,23 @@ void allow_kinks(BeamModel& model, int b) {
   for (int h = 1; h < beam.home_intervals(); ++h) {
     const double l = std::min(beam.home[h].s - beam.home[h - 1].s, beam.home[h + 1].s - beam.home[h].s);
     const bool is_string = beam.properties.bends_within(short_reach * l, tension);
-    if (beam.home[h].kept && is_string) beam.home[h].kind = NodeKind::hinge;
+    if (beam.home[h].kept && is_string) beam.home[h].kind = NodeKind::kink;
   }
 }
 
 }  // namespace
 
 void mark_held_nodes(BeamModel& model) {
-  for_each_kept_place(model, [&](int b, double s, const auto& mark) {
-    Beam& beam = model.beams[b];
-    const int h = beam.home_at(s);
-    if (h < 0)
-      refuse("what is held at s = " + text_of(s) + " m of beam \"" + beam.name + "\" needs a node there");
-    mark(beam.home[h]);
-    if (beam.is_ring() && h == 0) mark(beam.home.back());  // the seam
-  });
-  for (int b = 0; b < static_cast<int>(model.beams.size()); ++b) allow_kinks(model, b);
+  for_each_kept_place(
+      model,
+      [&](int b, double s, const auto& mark) {
+        Beam& beam = model.beams[b];
+        const int h = beam.home_at(s);
+        if (h < 0)
+          refuse("what is held at s = " + text_of(s) + " m of beam \"" + beam.name + "\" needs a node there");
+        mark(beam.home[h]);
+        if (beam.is_ring() && h == 0) mark(beam.home.back());  // the seam
+      });
 }
 
 ModelBuilder::ModelBuilder(int dimension, const Eigen::Vector3d& gravity) {
@@ -236,6 +237,7 @@ BeamModel ModelBuilder::build() const {
   for (int b = 0; b < static_cast<int>(model.beams.size()); ++b)
     if (!parts_[b].divided) model.beams[b].home = divided(model, b, parts_[b].division);
   mark_held_nodes(model);
+  for (int b = 0; b < static_cast<int>(model.beams.size()); ++b) allow_kinks(model, b);
   return model;
 }
 

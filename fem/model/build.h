@@ -86,7 +86,7 @@ class ModelBuilder {
 };
 
 /// Marks the home nodes of a model with what its supports, riders, connectors and masses hold there, as
-/// build() does. A string may get a kink where connectors or masses are. Throws std::invalid_argument where a
+/// build() does. Throws std::invalid_argument where a
 /// place has no node.
 void mark_held_nodes(BeamModel& model);
 

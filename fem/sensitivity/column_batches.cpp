@@ -41,7 +41,8 @@ template <int D>
 void ColumnBatches<D>::put(Each begin, Each end, const std::array<int, element_size<D>>& dofs) {
   Group& group = groups_[static_cast<std::size_t>(begin->group)];
   std::vector<ElementBatch<D>>& batches = group.batches;
-  bool fit = !batches.empty() && end - begin <= ElementBatch<D>::lanes - batches.back().count();
+  bool fit = !batches.empty() && end - begin <= ElementBatch<D>::lanes - batches.back().count() &&
+             batches.back().has(begin->element->element.properties());
   for (auto each = begin; each != end; ++each) {
     if (!std::exchange(fit, true) || batches.back().is_full())
       batches.emplace_back(each->element->element.properties());

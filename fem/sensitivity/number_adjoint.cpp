@@ -8,7 +8,8 @@ NumberAdjoint<D>::NumberAdjoint(const Assembly<D>& system, const std::vector<int
     : system_(&system), sums_(sums), places_(system.elements().size()) {
   for (const int i : elements) {
     const MeshElement<D>& e = system.elements()[i];
-    if (parts_.empty() || parts_.back().beam != e.span->beam || parts_.back().batch.is_full())
+    if (parts_.empty() || parts_.back().beam != e.span->beam || parts_.back().batch.is_full() ||
+        !parts_.back().batch.has(e.element.properties()))
       parts_.push_back({e.span->beam, ElementBatch<D>(e.element.properties()),
                         std::vector<FixedLanes>(static_cast<std::size_t>(sums))});
     ElementBatch<D>& batch = parts_.back().batch;

@@ -179,7 +179,9 @@ void Sensitivities::take_off(const Shifts& shifts, const Eigen::SparseMatrix<dou
 
 void Sensitivities::begins(const MeshedState& drawn) {
   const auto kinks_of = [this](const BeamModel& model) {
-    std::vector<double> kinks = kink_times(model);  // kinks as the run comes to them
+    std::vector<double> kinks = kink_times(model);  // as the run comes to them, and seams
+    for (const double seam : seam_times(model)) kinks.push_back(seam);
+    std::sort(kinks.begin(), kinks.end());
     kinks.erase(std::lower_bound(kinks.begin(), kinks.end(), end_time_), kinks.end());
     return kinks;
   };

@@ -12,6 +12,19 @@ int turns_of(int h, int n) { return (h >= 0 ? h : h - n + 1) / n; }
 
 }  // namespace
 
+const PipeBend* Beam::bend_at(double s) const {
+  if (bends.empty()) return nullptr;
+  const int segment = curve.segment_at(s);
+  for (const PipeBend& bend : bends)
+    if (bend.segment == segment) return &bend;
+  return nullptr;
+}
+
+const BeamProperties& Beam::properties_at(double s) const {
+  const PipeBend* bend = bend_at(s);
+  return bend ? bend->properties : properties;
+}
+
 int Beam::home_index(int h) const {
   return is_ring() ? h - home_intervals() * turns_of(h, home_intervals()) : h;
 }

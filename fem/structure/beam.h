@@ -36,6 +36,14 @@ struct BeamVelocity {
   double along = 0;                                       ///< towards the beam's end [m/s]
 };
 
+/// A bend of a pipe, one segment of the axis, whose section ovalises: it bends more easily than the straight
+/// pipe, under a greater stress.
+struct PipeBend {
+  int segment;
+  BeamProperties properties;
+  double stress_factor = 1;  ///< on the stress of bending
+};
+
 struct Beam {
   std::string name;
   ReferenceCurve curve;
@@ -48,11 +56,19 @@ struct Beam {
   MergeRule merge = MergeRule::standard;
   Form form = Form::variational;
   std::optional<BeamVelocity> velocity = {};  ///< velocity at t = 0; without one the beam is at rest
+  std::vector<PipeBend> bends = {};           ///< in order of their segments
   /// A guide: the axis stays as drawn, without elements, mass or strain. Its home nodes are the breaks.
   bool rigid = false;
+  /// A rope or a wire: where its elements are parts of a string (is_string), their moments are those of their
+  /// own bending.
+  bool rope = false;
   /// s increasing, from 0 to the length; on a ring the last one is the first again.
   std::vector<HomeNode> home;
 
+  /// The bend that holds s; null where none does.
+  const PipeBend* bend_at(double s) const;
+  /// The properties of an element whose middle is at s.
+  const BeamProperties& properties_at(double s) const;
   bool has_torsion() const { return properties.sections.has_value(); }
   /// A ring is a closed curve without ends.
   bool is_ring() const { return curve.closed(); }

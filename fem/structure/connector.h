@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "fem/material/force_rows.h"
 #include "fem/structure/grip.h"
 #include "fem/structure/home_nodes.h"
 
@@ -29,17 +30,18 @@ enum class ConnectorLength {
 
 /// A connector joins two ends. Let d be the vector from the first end to the second.
 /// The stretch is e = |d| - l_0, or n . d - l_0 along a direction n. The ends are pulled together with
-/// N = k e + c e'.
+/// N = F(e) + c e', where F = k e or a law by rows, with F(0) = 0.
 ///
-/// Types that carry one sign alone: tension_only has N = max(0, k e + c e') where e > 0, else 0;
+/// Types that carry one sign alone: tension_only has N = max(0, F(e) + c e') where e > 0, else 0;
 /// compression_only is its mirror image. With a damper N jumps where e comes to 0, and a step ends there:
 /// State::memory tells which connectors are taut.
 struct Connector {
   std::string name;
   std::array<Grip, 2> ends;  ///< a place of a beam keeps its node
   ConnectorType type = ConnectorType::spring;
-  double stiffness = 0;  ///< k [N/m]
-  double damping = 0;    ///< c [N s/m]
+  double stiffness = 0;  ///< k; of a law by rows dF/de where the stretch is 0 [N/m]
+  std::optional<ForceRows> rows = {};
+  double damping = 0;  ///< c [N s/m]
   /// Free length l_0 [m]; where it is to be found, its value in the drawing.
   double length = 0;
   std::optional<Eigen::Vector3d> direction = {};  ///< n, of unit length
@@ -57,6 +59,13 @@ struct Connector {
         visit(
             end.beam, end.s, [](HomeNode& node) { node.kept = true; });
   }
+  /// The elastic law at a stretch [m]: energy [J], force [N] and stiffness [N/m].
+  ForceRows::Point elastic(double stretch) const {
+    if (rows) return rows->at(stretch);
+    return {stiffness * stretch * stretch / 2, stiffness * stretch, stiffness};
+  }
+  /// The stretch under a force [N], of a spring without damping [m].
+  double stretch_under(double pull) const { return rows ? rows->stretch(pull) : pull / stiffness; }
   bool jumps() const { return sign() != 0 && damping > 0; }
   /// A stretch below this counts as zero, for ends at this distance [m].
   double least_stretch(double distance) const { return 1e-12 * (std::abs(distance) + std::abs(length)); }

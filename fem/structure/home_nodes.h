@@ -9,8 +9,11 @@ namespace nurbeam {
 /// The relation between the slopes on both sides of a home node.
 enum class NodeKind : std::uint8_t {
   smooth,  ///< both are one slope
-  hinge,   ///< the slopes are free of each other
-  rigid    ///< a corner: the angle between the slopes stays as drawn (HeldAngle)
+  /// The slopes are free of each other, as bending rounds the angle over less than an element (BendingLayer);
+  /// torsion passes (PassedRoll).
+  kink,
+  hinge,  ///< the slopes are free of each other
+  rigid   ///< a corner: the angle between the slopes stays as drawn (HeldAngle)
 };
 
 /// The coordinates that a support holds at a node.
@@ -25,10 +28,18 @@ enum class Hold : std::uint8_t {
 struct HomeNode {
   double s;                ///< reference arc length [m]
   bool permanent = false;  ///< a break of the drawing, a support or a joint inside the beam: see Passing
-  NodeKind kind = NodeKind::smooth;  ///< a hinge or a corner is never removed: no body slides over it
+  NodeKind kind =
+      NodeKind::smooth;  ///< only a smooth node is ever removed; no body slides over a hinge or a corner
   Hold hold = Hold::nothing;
   bool joined = false;  ///< another beam is joined here
   bool kept = false;    ///< a mass or a connector is here: the node never gives way
+  /// A smooth node where bending yet reaches less far than an element, so that the elements beside it do not
+  /// show its moment.
+  bool sharp = false;
+  bool sharp_clamp = false;  ///< a clamp that holds the slope beyond a layer of bending (Support::sharp)
+
+  /// Whether bodies slide over the node.
+  bool is_passed() const { return kind == NodeKind::smooth || kind == NodeKind::kink; }
 };
 
 /// Places that must be nodes of the drawn mesh: breaks of the drawing and supports, in order [m].

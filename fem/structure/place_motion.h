@@ -1,13 +1,15 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "fem/time_table.h"
+#include "nurbs/row_curve.h"
 
 namespace nurbeam {
 
-/// A prescribed place on a beam over time: the rows of a table, with jumps of the speed, or a smooth
-/// function.
+/// A prescribed place on a beam over time: the curve through the rows of a table, or a smooth function.
 class PlaceMotion {
  public:
   struct Moment {
@@ -15,19 +17,23 @@ class PlaceMotion {
   };
   using Law = std::function<Moment(double t)>;
 
-  PlaceMotion(TimeTable rows) : rows_(std::move(rows)) {}
+  /// Rows (t [s], s [m]). Throws std::invalid_argument without rows, or where times do not increase.
+  /// `bounds`: of the beam [m].
+  PlaceMotion(TimeTable rows, RowJoin join = RowJoin::smooth,
+              std::pair<double, double> bounds = RowCurve::unbounded)
+      : rows_(RowCurve(std::move(rows), join, bounds)) {}
   explicit PlaceMotion(Law law) : law_(std::move(law)) {}
 
-  /// Rows (t [s], s [m]), linear between, constant outside; empty where a function prescribes the place.
-  const TimeTable& rows() const { return rows_; }
+  /// The curve through the rows; empty where a function prescribes the place.
+  const std::optional<RowCurve>& rows() const { return rows_; }
   Moment at(double t) const {
     if (law_) return law_(t);
-    const auto [s, speed] = value_and_slope(rows_, t);
-    return {s, speed, 0};
+    const RowCurve::Point now = rows_->at(t);
+    return {now.value, now.slope, now.second};
   }
 
  private:
-  TimeTable rows_;
+  std::optional<RowCurve> rows_;
   Law law_;
 };
 

@@ -45,6 +45,7 @@ struct Rider {
   /// For a beam with torsion: the body rolls with the section at its place, at the offset along d1 and d2
   /// from the axis [m].
   bool follows_section = false;
+  bool sharp = false;  ///< as HomeNode::sharp, where the slope is continuous
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 
   StaticPlace rest = StaticPlace::automatic;
@@ -70,6 +71,13 @@ struct Structure {
 
   const Beam& beam_of(const Rider& rider) const { return beams[rider.beam]; }
   const Body& body_of(const Rider& rider) const { return bodies[rider.body]; }
+  /// Stiffness of the stick of a rider with friction [N/m].
+  double stick_stiffness(const Rider& rider) const {
+    const Beam& beam = beam_of(rider);
+    return rider.friction->stick_stiffness.value_or(
+        beam.rigid ? Friction::stiffness_on_guide(body_of(rider).mass)
+                   : beam.properties.stiffness_of_length(beam.curve.length() / beam.home_intervals()));
+  }
 };
 
 }  // namespace nurbeam

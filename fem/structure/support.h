@@ -18,6 +18,9 @@ struct Support {
   double s;              ///< [m]
   bool clamped = false;  ///< position and direction of the slope; its magnitude stays free
   bool fork = false;     ///< position and roll of the section, of a beam with torsion
+  /// Of a clamp: the beam turns into the drawn direction within less than an element (BendingLayer), so that
+  /// in the mesh its slope is free.
+  bool sharp = false;
   std::string name = {};
   /// Displacement from the drawn position; State::load scales it as it scales loads.
   std::optional<DisplacementTable> motion = {};
@@ -27,13 +30,15 @@ struct Support {
   /// The direction along which the place is free; it is held across this direction alone.
   std::optional<Eigen::Vector3d> guide = {};
 
+  bool holds_slope() const { return clamped && !sharp; }
+
   static constexpr bool from_outside = true;
   Grip place() const { return Grip::on_beam(beam, s); }
   /// The support's name; without one "reaction.cable.start".
   std::string reaction_name(const Structure& structure) const;
   template <class Visit>
   void for_each_node(Visit&& visit) const {
-    const Hold by = clamped ? Hold::clamp : Hold::position;
+    const Hold by = holds_slope() ? Hold::clamp : Hold::position;
     visit(beam, s, [by](HomeNode& node) { node.hold = std::max(node.hold, by); });
   }
 };

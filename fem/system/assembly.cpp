@@ -58,7 +58,9 @@ void Assembly<D>::batch_elements() {
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     const MeshElement<D>& e = elements_[i];
     auto& [batches, batched, others, reaches] = walks_[e.span->beam];
-    (e.twist || !ElementBatch<D>::takes(e.element) ? others : batched).push_back(i);
+    const bool in_batch = !e.twist && ElementBatch<D>::takes(e.element) &&
+                          &e.element.properties() == &model_->beams[e.span->beam].properties;
+    (in_batch ? batched : others).push_back(i);
   }
   constexpr int lanes = ElementBatch<D>::lanes;
   for (int b = 0; b < static_cast<int>(walks_.size()); ++b) {
@@ -102,6 +104,15 @@ void Assembly<D>::bind_constraints(Binding<D>& binding) {
       for (int i = first; i < static_cast<int>(constraints_.size()); ++i) over_mesh_.push_back(i);
   });
   constraint_count_ = binding.rows;
+  for (int i = 0; i < static_cast<int>(constraints_.size()); ++i)
+    if (!std::visit(
+            [](const auto& c) {
+              constexpr ConstraintOffers offers = offers_of<decltype(c)>;
+              if constexpr (offers.constant) return c.is_constant();
+              return offers.linear;
+            },
+            constraints_[i]))
+      turning_.push_back(i);
 }
 
 template <int D>
@@ -365,6 +376,25 @@ void Assembly<D>::add_residual_of(const std::vector<int>& elements, const State&
 }
 
 template <int D>
+bool Assembly<D>::has_constant_constraints() const {
+  return turning_.empty();
+}
+
+template <int D>
+void Assembly<D>::turning_speeds(const State& state, Eigen::Ref<Eigen::VectorXd> speeds) const {
+  speeds.setZero();
+  for (const int i : turning_) {
+    add_constraint_product(i, state, state.v, speeds);
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (offers_of<decltype(c)>.rates)
+            speeds.segment(constraint_blocks_[i].row, c.rows) += c.rate(state.t);
+        },
+        constraints_[i]);
+  }
+}
+
+template <int D>
 Eigen::VectorXd Assembly<D>::constraint_rate(const State& state) const {
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(constraint_count_);
   for (std::size_t i = 0; i < constraints_.size(); ++i)
@@ -379,17 +409,22 @@ Eigen::VectorXd Assembly<D>::constraint_rate(const State& state) const {
 
 template <int D>
 Eigen::VectorXd Assembly<D>::constraint_product(const State& state, const Eigen::VectorXd& x) const {
-  const MeshedBeams<D> at = beams();
   Eigen::VectorXd product = Eigen::VectorXd::Zero(constraint_count_);
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const ConstraintBlock& block = constraint_blocks_[i];
-    const ConstraintTerms<D> terms =
-        std::visit([&](const auto& c) { return c.terms(at, state, nullptr); }, constraints_[i]);
-    for (std::size_t k = 0; k < block.block.dofs.size(); ++k)
-      if (const int dof = block.block.dofs[k]; dof >= 0)
-        product.segment(block.row, block.rows) += x[dof] * terms.gradient.col(static_cast<Eigen::Index>(k));
-  }
+  for (int i = 0; i < static_cast<int>(constraints_.size()); ++i)
+    add_constraint_product(i, state, x, product);
   return product;
+}
+
+template <int D>
+void Assembly<D>::add_constraint_product(int i, const State& state, const Eigen::VectorXd& x,
+                                         Eigen::Ref<Eigen::VectorXd> product) const {
+  const MeshedBeams<D> at = beams();
+  const ConstraintBlock& block = constraint_blocks_[i];
+  const ConstraintTerms<D> terms =
+      std::visit([&](const auto& c) { return c.terms(at, state, nullptr); }, constraints_[i]);
+  for (std::size_t k = 0; k < block.block.dofs.size(); ++k)
+    if (const int dof = block.block.dofs[k]; dof >= 0)
+      product.segment(block.row, block.rows) += x[dof] * terms.gradient.col(static_cast<Eigen::Index>(k));
 }
 
 template <int D>

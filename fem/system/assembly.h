@@ -134,6 +134,8 @@ class Assembly final : public SecondOrderSystem {
   /// Unknowns of elements with moving ends and of riders' places, and those that constraints tie to them.
   const std::vector<int>& moving_unknowns() const override { return moving_.unknowns; }
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
+  bool has_constant_constraints() const override;
+  void turning_speeds(const State& state, Eigen::Ref<Eigen::VectorXd> speeds) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
   Eigen::VectorXd constraint_product(const State& state, const Eigen::VectorXd& x) const override;
   Eigen::VectorXd constraint_curvature(const State& state) const override;
@@ -250,6 +252,8 @@ class Assembly final : public SecondOrderSystem {
                    Eigen::Ref<Eigen::VectorXd> dynamics) const;
   void add_part(int beam, int part, const State& state, const Vector& load,
                 Eigen::Ref<Eigen::VectorXd> dynamics) const;
+  void add_constraint_product(int i, const State& state, const Eigen::VectorXd& x,
+                              Eigen::Ref<Eigen::VectorXd> product) const;
   void add_forces_and_constraints(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                                   Eigen::Ref<Eigen::VectorXd> constraints) const;
 
@@ -260,6 +264,7 @@ class Assembly final : public SecondOrderSystem {
   std::vector<MeshElement<D>> elements_;
   std::vector<Walk> walks_;  // per beam
   std::vector<BoundConstraint<D>> constraints_;
+  std::vector<int> turning_;  // constraints whose gradient turns
   Parts parts_;
   std::vector<BoundForce<D>> forces_;
 

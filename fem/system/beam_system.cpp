@@ -97,6 +97,10 @@ const std::vector<int>& BeamSystem::moving_unknowns() const { return system_->mo
 void BeamSystem::moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const {
   system_->moving_tangent(state, w, part);
 }
+bool BeamSystem::has_constant_constraints() const { return system_->has_constant_constraints(); }
+void BeamSystem::turning_speeds(const State& state, Eigen::Ref<Eigen::VectorXd> speeds) const {
+  system_->turning_speeds(state, speeds);
+}
 Eigen::VectorXd BeamSystem::constraint_rate(const State& state) const {
   return system_->constraint_rate(state);
 }

@@ -59,6 +59,8 @@ class BeamSystem final : public SecondOrderSystem {
                     double* values) const override;
   const std::vector<int>& moving_unknowns() const override;
   void moving_tangent(const State& state, const TangentWeights& w, Eigen::MatrixXd& part) const override;
+  bool has_constant_constraints() const override;
+  void turning_speeds(const State& state, Eigen::Ref<Eigen::VectorXd> speeds) const override;
   Eigen::VectorXd constraint_rate(const State& state) const override;
   Eigen::VectorXd constraint_product(const State& state, const Eigen::VectorXd& x) const override;
   Eigen::VectorXd constraint_curvature(const State& state) const override;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "fem/element/quadrature.h"
+#include "fem/material/bending_layer.h"
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
 
@@ -20,15 +21,28 @@ MaterialPoint<3> widened_point(const MaterialPoint<D>& p) {
           widened<D>(p.velocity), widened<D>(p.velocity_s), p.kappa0};
 }
 
-template <int D>
-Eigen::Matrix4d control_points(const ElementBasis<double>& basis, const ElementVector<D>& q) {
+// Of nodes with slopes by reference arc length.
+Eigen::Matrix4d control_points(const ElementBasis<double>& basis, NodalCoordinates nodal) {
   const auto [J_a, J_b] = basis.stretches();
   const std::array<double, 4> weights = basis.weights();
-  NodalCoordinates nodal = NodalCoordinates::Zero();
-  nodal.topRows<D>() = ElementLayout<D>::nodes(q);
   nodal.col(1) *= J_a;
   nodal.col(3) *= J_b;
   return to_bezier(nodal, Eigen::Map<const Eigen::Vector4d>(weights.data()), basis.length()).points();
+}
+
+template <int D>
+Eigen::Matrix4d control_points(const ElementBasis<double>& basis, const ElementVector<D>& q) {
+  NodalCoordinates nodal = NodalCoordinates::Zero();
+  nodal.topRows<D>() = ElementLayout<D>::nodes(q);
+  return control_points(basis, nodal);
+}
+
+// The control points of an element where its curve is drawn.
+Eigen::Matrix<double, 3, 4> drawn_points(const ElementBasis<double>& basis, const ReferenceCurve& curve,
+                                         double s_a, double s_b) {
+  NodalCoordinates nodal;
+  nodal << curve.position(s_a), curve.tangent(s_a), curve.position(s_b), curve.tangent(s_b, true);
+  return control_points(basis, nodal).colwise().hnormalized();
 }
 
 // Measured: cantilevers of unevenly drawn lines have errors of up to 1.1 times the sum of turns.
@@ -108,6 +122,21 @@ double twist_since_start(const MeshElement<3>& e, const State& state, double s) 
   return s == s_a ? 0 : (s - s_a) * section_of(e, state, (s_a + s) / 2).strain.twist;
 }
 
+// The couple on a section of a beam with torsion; of a string that of its own bending.
+Eigen::Vector3d couple_of(const PlaceInElement<3>& at, const Eigen::Vector3d& carried, bool taut) {
+  if (!taut) return carried;
+  const SectionTriad<double>& triad = at.section->triad;
+  const SectionMoments<double>& own = at.section->moments;
+  return own.bending_1 * triad.d1 + own.bending_2 * triad.d2 + carried.dot(triad.t) * triad.t;
+}
+
+// The factor on the stress of bending, of an element in a bend of a pipe.
+template <int D>
+double stress_factor(const Beam& beam, const MeshElement<D>& e) {
+  const PipeBend* bend = beam.bend_at((e.span->s_a + e.span->s_b) / 2);
+  return bend ? bend->stress_factor : 1;
+}
+
 // Adds the values that only a beam with torsion has to the record of its section.
 void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
                   const Eigen::Vector3d& couple, const PlaceInElement<3>& at, SectionRecord& record) {
@@ -121,10 +150,43 @@ void add_own_axes(const Beam& beam, const MeshElement<3>& e, const State& state,
   record.twist = twist_since_start(e, state, at.s);
   record.stress = record.von_mises = SectionRecord::no_number;
   if (!beam.stresses) return;
-  const auto [normal, von_mises] =
-      beam.stresses->largest({record.axial_force, record.moment_1, record.moment_2, record.torque});
+  const double factor = stress_factor(beam, e);
+  const auto [normal, von_mises] = beam.stresses->largest(
+      {record.axial_force, factor * record.moment_1, factor * record.moment_2, record.torque});
   record.stress = normal;
   record.von_mises = von_mises;
+}
+
+// The curvature vector by which a couple bends a beam [1/m].
+template <int D>
+Eigen::Vector3d bent_by(const BeamProperties& beam, const Eigen::Vector3d& couple,
+                        const PlaceInElement<D>& at) {
+  const Eigen::Vector3d t = widened<D>(at.point.rs).normalized();
+  if (at.section && beam.sections) {
+    const Eigen::Vector3d d1 = at.section->triad.d1, d2 = at.section->triad.d2;
+    return beam.sections->curvature_1(couple.dot(d1)) * d1.cross(t) +
+           beam.sections->curvature_2(couple.dot(d2)) * d2.cross(t);
+  }
+  return beam.curvature_of(1) * couple.cross(t);
+}
+
+template <int D>
+bool is_at_rest(const MeshElement<D>& e, const State& state) {
+  return std::all_of(
+      e.dofs.begin(), e.dofs.end(), [&](int k) { return k < 0 || (state.v[k] == 0 && state.a[k] == 0); });
+}
+
+// The distance by which loads between its ends deflect a beam at rest from the cubic of its element [m]. A
+// tension T holds it to the cubic, by the energies of a deflection x^2 (1 - x)^2: 1/(1 + T h^2/(42 EI)). In
+// motion an element follows its loads with the inertia of what it does not show.
+template <int D>
+Eigen::Vector3d deflection_from_cubic(const MeshElement<D>& e, const State& state,
+                                      const SpanResultants& carried, double tension,
+                                      const PlaceInElement<D>& at) {
+  const BeamProperties& beam = e.element.properties();
+  if (!beam.resists_bending() || !is_at_rest(e, state)) return Eigen::Vector3d::Zero();
+  const double held = 1 + beam.tension_number(std::max(tension, 0.0), carried.length()) / 42;
+  return bent_by<D>(beam, carried.couple_integral(at.s, widened<D>(at.point.rs)), at) / held;
 }
 
 template <int D>
@@ -138,19 +200,26 @@ SectionRecord section_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   const double drawn = e.element.curve().strain(s);
   const double strain =
       assumed ? drawn + assumed->carried((s - s_a) / (s_b - s_a)) : axial_strain<D>(p.rs).value;
-  const SectionForces elastic = section_forces(e.element.properties(), strain, drawn, free_strain(e, state));
+  const SectionForces elastic = section_forces(e.element.properties(), strain, drawn, free_strain(e, state),
+                                               e.element.axial_rule().buckling_strain);
   const StressResultants resultants = carried.at(s, point.r, point.rs);
   SectionRecord record;
+  record.displacement = (point.r + deflection_from_cubic<D>(e, state, carried, elastic.axial_force, at) -
+                         e.element.curve().position(s))
+                            .norm();
   record.strain = elastic.strain;
   record.curvature = curvature<D, Derivatives::one>(p.rs, p.rss, e.element.properties().curvature).value;
   record.axial_force = elastic.axial_force;
-  record.bending_moment = bending_moment<D>(resultants.couple, point);
-  record.shear_force = shear_force<D>(resultants.force, point.rs);
   const Beam& beam = a.model()->beams[e.span->beam];
+  const bool taut = beam.rope && is_string(e.element.properties(), s_b - s_a, record.axial_force);
+  record.bending_moment = taut ? elastic_moment(e.element.properties(), record.curvature - point.kappa0)
+                               : bending_moment<D>(resultants.couple, point);
+  record.shear_force = shear_force<D>(resultants.force, point.rs);
   record.stress =
-      beam.section.fibre_stress(record.axial_force, record.bending_moment).value_or(SectionRecord::no_number);
+      beam.section.fibre_stress(record.axial_force, stress_factor(beam, e) * record.bending_moment)
+          .value_or(SectionRecord::no_number);
   if constexpr (D == 3)
-    if (e.twist) add_own_axes(beam, e, state, resultants.couple, at, record);
+    if (e.twist) add_own_axes(beam, e, state, couple_of(at, resultants.couple, taut), at, record);
   return record;
 }
 
@@ -165,6 +234,7 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
   record.control_points = control_points<D>(basis, q);
   record.s_start = q[Layout::place(0)];
   record.s_end = q[Layout::place(1)];
+  record.drawn_points = drawn_points(basis, e.element.curve(), record.s_start, record.s_end);
   record.axial_mismatch = e.element.axial_mismatch(q);
   const std::optional<AssumedStrain> assumed = e.element.assumed_strain(q);
   for (int i = 0; i < 4; ++i) {
@@ -180,6 +250,7 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
     record.torque[i] = section.torque;
     record.shear_force[i] = section.shear_force;
     record.stress[i] = section.stress;
+    record.displacement[i] = section.displacement;
     record.velocity.col(i) = widened<D>(at.point.velocity);
     record.moment_1[i] = section.moment_1;
     record.moment_2[i] = section.moment_2;
@@ -190,6 +261,7 @@ ElementRecord element_of(const Assembly<D>& a, const MeshElement<D>& e, const St
       record.d2.col(i) = at.section->triad.d2;
     }
   }
+  record.folded = e.element.strain_residue(q) / (1 + 2 * std::max(0.0, record.strain.maxCoeff()));
   return record;
 }
 
@@ -276,7 +348,8 @@ double position_error(const BeamSystem& system, const State& state, int span) {
         const MeshElement<D>& e = a.elements()[span];
         const ElementVector<D> q = gather<D>(e, state.q);
         const double length = q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)];
-        const double of_shape = quartic_strain_to_error * std::abs(e.element.quartic_strain(q)) * length;
+        const double of_shape =
+            quartic_strain_to_error * std::abs(e.element.strain_coefficients(q)[4]) * length;
         const double turned =
             misfit_to_turn * elastic_curvature<D>(e, state, length) * length * bending_misfit<D>(e, q);
         return of_shape + turned * e.element.curve().length();
@@ -291,15 +364,21 @@ std::optional<AssumedStrain> assumed_strain(const BeamSystem& system, const Stat
       });
 }
 
-SpanStrain::SpanStrain(const BeamSystem& system, const State& state, int span)
+OwnSlopes own_slopes(const BeamSystem& system, int span) {
+  return with_assembly(
+      system, [&]<int D>(const Assembly<D>& a) { return a.elements()[span].element.own_slopes(); });
+}
+
+SpanStrain::SpanStrain(const BeamSystem& system, const State& state, int span, int k)
     : system_(system), span_(span) {
   with_assembly(
       system,
       [&]<int D>(const Assembly<D>& a) {
         const MeshElement<D>& e = a.elements()[span];
         const ElementVector<D> q = gather<D>(e, state.q);
-        stretch_ = e.element.stretch(q);
-        of_axis_ = e.element.strain_of_axis(q);
+        const double length = q[ElementLayout<D>::place(1)] - q[ElementLayout<D>::place(0)];
+        stretch_ = k == 0 ? e.element.stretch(q) : length * e.element.stretch_coefficient(q, k);
+        of_axis_ = k == 0 ? e.element.strain_of_axis(q) : 0;
       });
 }
 

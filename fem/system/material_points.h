@@ -29,9 +29,10 @@ struct SectionRecord {
   double axial_force = 0;     ///< elastic, tension positive [N]
   double bending_moment = 0;  ///< [N m]; signed in a planar model, in space as the change of curvature is
   double torque = 0;  ///< [N m]; signed in a planar model; in space with the sign of the change of curvature
-  double shear_force = 0;  ///< [N]; in a planar model the force of the part beyond the section, along the
-                           ///< normal n = e_z x t; in space its magnitude
-  double stress = 0;       ///< at the fibre where it is largest [Pa]; NaN where the section does not give it
+  double shear_force = 0;   ///< [N]; in a planar model the force of the part beyond the section, along the
+                            ///< normal n = e_z x t; in space its magnitude
+  double stress = 0;        ///< at the fibre where it is largest [Pa]; NaN where the section does not give it
+  double displacement = 0;  ///< distance of the axis from the drawing [m]
   /// For a beam with torsion, else NaN: bending moments about the section's own axes d1 and d2 [N m]; the
   /// twist of the section since the drawing, against the start of its span [rad]; the maximum von Mises
   /// stress [Pa] (NaN where the section does not give it).
@@ -47,11 +48,15 @@ SectionRecord section_at(const BeamSystem& system, const State& state, int span,
 /// 2/3, 1 (`sample`).
 struct ElementRecord {
   Eigen::Matrix4d control_points;  ///< homogeneous, deformed [m]
-  double s_start = 0, s_end = 0;   ///< reference arc length [m]
+  /// The same element where it is drawn: with the weights of `control_points`, not homogeneous [m]; NaN in
+  /// results of earlier versions.
+  Eigen::Matrix<double, 3, 4> drawn_points = no_axes();
+  double s_start = 0, s_end = 0;  ///< reference arc length [m]
   double axial_mismatch = 0;  ///< maximum of pointwise less assumed axial strain; large on a coarse mesh [-]
-  Eigen::Vector4d strain, curvature, axial_force, bending_moment, torque = Eigen::Vector4d::Zero(),
-                                                                  shear_force = Eigen::Vector4d::Zero(),
-                                                                  stress = Eigen::Vector4d::Zero();
+  double folded = 0;          ///< R of FoldResistance over |r_s|^2 where the element is longest
+  Eigen::Vector4d strain, curvature, axial_force, bending_moment,
+      torque = Eigen::Vector4d::Zero(), shear_force = Eigen::Vector4d::Zero(),
+      stress = Eigen::Vector4d::Zero(), displacement = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 3, 4> velocity;  ///< of the material [m/s]
   Eigen::Vector4d moment_1 = no_numbers(), moment_2 = no_numbers(), twist = no_numbers(),
                   von_mises = no_numbers();
@@ -84,6 +89,8 @@ double span_twist(const BeamSystem& system, const State& state, int span);
 double position_error(const BeamSystem& system, const State& state, int span);
 inline constexpr double quartic_strain_to_error = 2.5;
 
+/// The slopes that belong to the element in a span alone.
+OwnSlopes own_slopes(const BeamSystem& system, int span);
 /// The assumed axial strain of the element in a span; nothing where the strain is pointwise.
 std::optional<AssumedStrain> assumed_strain(const BeamSystem& system, const State& state, int span);
 
@@ -92,10 +99,11 @@ struct StrainIntegral {
   double value;
   std::array<Eigen::Vector3d, 2> by_position, by_slope;
 };
-/// The strain integral of a span for all states of a system in which the span has the same ends.
+/// The strain integral of a span for all states of a system in which the span has the same ends. With k = 1,
+/// 2: the Legendre coefficient e_k of the strain times the length of the span, for a drawing without strain.
 class SpanStrain {
  public:
-  SpanStrain(const BeamSystem& system, const State& state, int span);
+  SpanStrain(const BeamSystem& system, const State& state, int span, int k = 0);
   StrainIntegral at(const State& state) const;
 
  private:

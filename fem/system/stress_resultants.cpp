@@ -175,11 +175,44 @@ StressResultants SpanResultants::at(double s, const Eigen::Vector3d& r, const Ei
   return carried;
 }
 
+namespace {
+
+// The deflection at x of a beam of length h with clamped ends and EI = 1 under a unit force at a, and its
+// derivative by a.
+std::pair<double, double> clamped_deflection(double x, double a, double h) {
+  const bool beyond = x > a;
+  if (beyond) {
+    x = h - x;
+    a = h - a;
+  }
+  const double b = h - a, span = 3 * a * h - x * (3 * a + b), scale = x * x / (6 * h * h * h);
+  const double by_a = scale * (b * b * (3 * h - 2 * x) - 2 * b * span);
+  return {scale * b * b * span, beyond ? -by_a : by_a};
+}
+
+}  // namespace
+
+Eigen::Vector3d SpanResultants::couple_integral(double s, const Eigen::Vector3d& slope) const {
+  const double h = length(), x = (s - s_[0]) / h, y = 1 - x;
+  Eigen::Vector3d sum = (couple_s_[1] - couple_s_[0]) * (h * h * h * x * x * y * y / 24);
+  for (const Inside& point : inside_) {
+    const auto [force, couple] = clamped_deflection(s - s_[0], point.action.s - s_[0], h);
+    sum += force * slope.cross(point.action.force) + couple * point.action.couple;
+  }
+  return sum;
+}
+
 CarriedBySpans::CarriedBySpans(const BeamSystem& system, const State& state)
     : system_(system),
       state_(state),
       inside_(with_assembly(system, [&](const auto& a) { return actions_inside(a, state); })),
       loads_(with_assembly(system, [&](const auto& a) { return line_loads(a, state); })) {}
+
+bool CarriedBySpans::has_actions(int span) const {
+  return std::binary_search(
+      inside_.begin(), inside_.end(), PointAction{.element = span, .s = 0},
+      [](const PointAction& x, const PointAction& y) { return x.element < y.element; });
+}
 
 SpanResultants CarriedBySpans::operator[](int span) const {
   const auto comes_before = [](const auto& action, int of) { return action.element < of; };

@@ -38,6 +38,13 @@ class SpanResultants {
   /// Stress resultants at s, where r and r_s are the position and slope. The force has no part along r_s: the
   /// axial force is the element's own.
   StressResultants at(double s, const Eigen::Vector3d& r, const Eigen::Vector3d& slope) const;
+  /// The part of the couple that the element's own cubic cannot follow, integrated twice over the span with
+  /// no value and no slope at its ends [N m^3]: over EI it is the deflection from the cubic that loads
+  /// between the ends give. Of loads that are even along the span, and of point actions inside.
+  Eigen::Vector3d couple_integral(double s, const Eigen::Vector3d& slope) const;
+  double length() const { return s_[1] - s_[0]; }
+  /// The point actions between the ends of the span; resultants jump or have a kink at their places.
+  const std::vector<Inside>& inside() const { return inside_; }
 
  private:
   std::array<double, 2> s_;
@@ -51,6 +58,8 @@ class CarriedBySpans {
  public:
   CarriedBySpans(const BeamSystem& system, const State& state);
   SpanResultants operator[](int span) const;
+  /// Whether point actions lie inside the span, between its ends.
+  bool has_actions(int span) const;
 
  private:
   const BeamSystem& system_;

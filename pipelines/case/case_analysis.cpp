@@ -24,23 +24,22 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
     findings.add(Severity::warning, "analysis.integrator.rho_infinity",
                  "has an effect with \"generalized-alpha\" only");
   if (method == Method::ida)
-    findings.add(
-        Severity::warning, "analysis.integrator.type",
-        "is \"ida\", which the next version no longer has; use \"radau\": of error control too, and for "
-        "friction, stops and stiff beams");
+    findings.error("analysis.integrator.type",
+                   "is \"ida\", which nurbeam no longer has; use \"radau\": of error control too, and for "
+                   "friction, stops and stiff beams");
   const double of_steps = fixed_steps ? 0 : tolerance.value_or(1e-4);
   switch (method) {
+    case Method::ida:
     case Method::radau:
       return Radau{.tolerance = of_steps};
-    case Method::ida:
-      return Ida{.tolerance = tolerance.value_or(Ida{}.tolerance)};
     case Method::rk4:
       return ExplicitRungeKutta{};
     case Method::generalized_alpha:
       break;
   }
   return GeneralizedAlpha{.rho_infinity = number(json, "rho_infinity", GeneralizedAlpha{}.rho_infinity),
-                          .tolerance = of_steps};
+                          .tolerance = of_steps,
+                          .settles = !has(json, "settle") || flag(json, "settle")};
 }
 
 std::vector<double> read_load_factors(const Json& json, Findings& findings) {
@@ -66,11 +65,13 @@ Shape analysis_shape() {
   using namespace shapes;
   const Shape integrator = object(
       {{"type", choice({"generalized-alpha", "radau", "ida", "rk4"}),
-        "radau: Radau IIA of order five, for adaptive or long steps; ida: SUNDIALS' BDF of variable order, slow "
-        "on stiff beams without damping; rk4: explicit, fixed `step`, no sliding bodies; generalized-alpha when "
-        "omitted"},
+        "radau: Radau IIA of order five, for adaptive or long steps; rk4: explicit, fixed `step`, no sliding "
+        "bodies; ida, of version 0.1, is refused; generalized-alpha when omitted"},
        {"rho_infinity", quantity(Dimension::number, {.lower = 0, .upper = 1}),
-        "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"}});
+        "spectral radius of generalized-alpha at infinite frequency; 0.8 when omitted"},
+       {"settle", boolean(),
+        "whether generalized-alpha projects velocities onto constraints that turn; true when omitted. Derivatives of "
+        "motions are those of false"}});
   const Shape length_control =
       object({{"min", quantity(Dimension::number, {.lower = 0, .upper = 1, .open = true}),
                "a shorter element is merged; 0.1 when omitted (the paper's: 0.5)"},
@@ -94,12 +95,11 @@ Shape analysis_shape() {
         "when omitted"},
        {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
         "end of the motion; a dynamic analysis needs it"},
-       {"step", quantity(Dimension::time, time_step()),
-        "fixed step; with ida how often length control looks"},
+       {"step", quantity(Dimension::time, time_step()), "fixed step"},
        {"tolerance",
         quantity(Dimension::number,
                  {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
-        "local error of adaptive steps; 1e-4 when nothing is said, 1e-8 with ida"},
+        "local error of adaptive steps; 1e-4 when nothing is said"},
        {"load_steps",
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "

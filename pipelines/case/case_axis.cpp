@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "cad_import/files/cad_file_name.h"
+#include "nurbs/curve_through.h"
 #include "nurbs/number_text.h"
+#include "pipelines/case/case_values.h"
 #include "pipelines/diagnostics/closest_name.h"
 
 namespace nurbeam {
@@ -42,8 +44,16 @@ Shape axis_shape() {
         "ends of curves up to this far apart meet; the file's own resolution when omitted", false, "file"},
        {"nurbs", nurbs, "an inline NURBS curve"},
        {"polyline", array(point(), 2), "straight pieces through these points"},
+       {"through", array(point(), 2),
+        "the smooth curve through these points; closed where the last one is the first"},
+       {"degree", integer(from(1)), "of that curve; 3, or less for fewer points, when omitted", false,
+        "through"},
+       {"tangents", array(vector(Dimension::number), 2),
+        "its directions: at both ends, or one at every point; found from the points when omitted", false,
+        "through"},
        {"arc", arc, "a circular arc"}},
-      {{{"file", "nurbs", "polyline", "arc"}, required}, {{"curve", "near", "longest", "chains"}, false}});
+      {{{"file", "nurbs", "polyline", "through", "arc"}, required},
+       {{"curve", "near", "longest", "chains"}, false}});
 }
 
 namespace {
@@ -130,6 +140,21 @@ CaseAxis::Polyline read_polyline(const Json& axis, const std::string& path, Find
   return polyline;
 }
 
+std::optional<NurbsCurve> read_through(const Json& axis, const std::string& path, Findings& findings) {
+  const std::vector<Eigen::Vector3d> through = points(axis, "through"), tangents = points(axis, "tangents");
+  if (through.size() < 2 || through.size() != part(axis, "through").size() ||
+      tangents.size() != part(axis, "tangents").size())
+    return {};  // what is missing has been reported
+  const bool closed = through.size() > 3 && through.front() == through.back();
+  const int usual = tangents.empty() && !closed ? std::min(3, static_cast<int>(through.size()) - 1) : 3;
+  try {
+    return curve_through(through, {optional_integer(axis, "degree").value_or(usual), tangents, closed});
+  } catch (const std::invalid_argument& error) {
+    findings.error(child(path, "through"), error.what());
+    return {};
+  }
+}
+
 CaseAxis::Arc read_arc(const Json& axis, const std::string& axis_path, Findings& findings) {
   const Json& json = part(axis, "arc");
   const std::string path = child(axis_path, "arc");
@@ -166,8 +191,10 @@ void check_cad_file(const std::filesystem::path& file, const std::string& path, 
                              (is_directory ? "directory" : "device or pipe") + "; expected a " + cad_formats +
                              " file" + (is_directory ? known_names("", cad_files_in(file)) : ""));
   } else if (!std::filesystem::exists(status)) {
+    const std::vector<std::string> there = cad_files_in(file.parent_path());
     findings.error(path, "there is no file " + in_quotes(file.string()) +
-                             known_names(file.filename().string(), cad_files_in(file.parent_path())));
+                             (there.empty() ? "; its folder has no CAD file (or is not there)"
+                                            : known_names(file.filename().string(), there)));
   }
 }
 
@@ -176,6 +203,10 @@ CaseAxis read_beam_axis(const Json& axis, const std::string& path, const std::fi
   if (has(axis, "file")) return {read_axis_file(axis, directory, path, findings)};
   if (has(axis, "nurbs")) {
     const auto curve = read_nurbs(axis["nurbs"], child(path, "nurbs"), findings);
+    return curve ? CaseAxis{*curve} : CaseAxis{};
+  }
+  if (has(axis, "through")) {
+    const auto curve = read_through(axis, path, findings);
     return curve ? CaseAxis{*curve} : CaseAxis{};
   }
   if (has(axis, "polyline")) return {read_polyline(axis, path, findings)};

@@ -1,9 +1,10 @@
 #pragma once
-#include "pipelines/case/case_values.h"
+#include "pipelines/case/case_json.h"
+#include "pipelines/case/parts/axis.h"
 
 namespace nurbeam {
 
-/// The axis of a beam; files are relative to `directory`.
+/// The axis of a beam, or another curve that is given like one; files are relative to `directory`.
 CaseAxis read_beam_axis(const Json& axis, const std::string& path, const std::filesystem::path& directory,
                         Findings& findings);
 

@@ -178,6 +178,17 @@ void check_torsion(const Json& json, const std::string& path, const CaseBeam& be
   if (beam.form == Form::virtual_work) refuse("form", "\"virtual-work\" is a comparison without torsion");
 }
 
+/// Reports a law that an element of comparison does not have.
+void check_law(const CaseBeam& beam, Findings& findings) {
+  const bool papers = beam.metric == Metric::label || beam.form == Form::virtual_work;
+  if (papers && beam.material.law && !std::holds_alternative<GreenLaw>(*beam.material.law))
+    findings.error(
+        child(child(beam.path, "material"), "law"),
+        std::string("is not \"green\", but ") +
+            (beam.metric == Metric::label ? "\"metric\": \"none\"" : "\"form\": \"virtual-work\"") +
+            " is the papers' element, which has that law alone; leave one of them out");
+}
+
 /// Reports what a beam needs to be longer or shorter than it is drawn when it is free.
 void check_free_length(const CaseBeam& beam, Findings& findings) {
   if (!beam.temperature.empty() && !beam.material.thermal_expansion)
@@ -192,6 +203,11 @@ void check_free_length(const CaseBeam& beam, Findings& findings) {
                            ", but \"form\": \"virtual-work\" is the papers' element, which has "
                            "\"damping\" alone; leave one of them out");
   if (beam.axial_strain != AxialStrain::pointwise) return;
+  if (beam.material.compression == Compression::buckles)
+    findings.error(
+        child(child(beam.path, "material"), "compression"),
+        "is \"buckles\", which is for the axial strain \"ends-and-mean\", but the beam has the papers' "
+        "\"pointwise\" one; leave one of them out");
   for (const auto& [asks, key] : {std::pair{beam.tension != 0, "tension"},
                                   std::pair{beam.unstressed_length.has_value(), "unstressed_length"},
                                   std::pair{!beam.temperature.empty(), "temperature"}})
@@ -294,6 +310,9 @@ Shape section_shape() {
         "area"},
        {"profile", profile,
         "section drawn in a CAD file; all curves of the file together, or of a part, layer and colour of it"},
+       {"bends", choice({"stiff", "flexible"}),
+        "bends of a pipe; flexible: its section becomes oval there, so that it bends 1.65/h times as easily, "
+        "with 0.9/h^(2/3) times the stress, h = t R/r^2 (ASME B31, EN 13480); stiff when omitted"},
        {"from", choice({"cad"}), "the section of the pipe in the CAD file whose centre line is the axis"}},
       {{{"radius", "rectangle", "i_section", "rope", "area", "profile", "from"}, required},
        {{"second_moment", "second_moments"}, false}});
@@ -306,6 +325,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   beam_fields().read(json, path, beam, findings);
   beam.axis = read_beam_axis(part(json, "axis"), child(path, "axis"), directory, findings);
   beam.section = read_section(part(json, "section"), directory, child(path, "section"), findings);
+  beam.section.flexible_bends = text(part(json, "section"), "bends") == "flexible";
   beam.material = read_material(json, child(path, "material"), findings);
   constexpr double default_smooth_angle = 5 * std::numbers::pi / 180;
   if (beam.corners == Corners::smooth && !has(json, "smooth_up_to")) beam.smooth_angle = default_smooth_angle;
@@ -319,6 +339,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
       beam.weights == WeightRule::material;
   beam.torsion_by_drawing = !has(json, "torsion") && !beam.torsion && !beam.rigid && may_take_it;
   check_torsion(json, path, beam, findings);
+  check_law(beam, findings);
   check_free_length(beam, findings);
   check_guide(json, beam, findings);
   return beam;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "nurbs/number_text.h"
 #include "pipelines/case/quantity.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/diagnostics/utf8_text.h"
 
 namespace nurbeam {
 
@@ -39,7 +41,7 @@ std::string quantity_hint(Dimension dimension) {
 
 /// "[time, value]" of a table.
 std::string row_of(const Shape& shape) {
-  std::string row = shape.argument == Dimension::time ? "[time" : "[s";
+  std::string row = "[" + shape.argument_name;
   for (int i = 0; i < shape.values; ++i)
     row += shape.values == 1 ? ", value" : ", value " + std::to_string(i + 1);
   return row + "]";
@@ -88,6 +90,41 @@ bool fits_json_type(const Shape& shape, const Json& value) {
     default:
       return value.is_string();
   }
+}
+
+/// What a word of other programs is called here; empty for others.
+std::string word_here(const std::string& word) {
+  static const std::vector<std::pair<std::string, std::string>> words = {
+      {"fixed", "clamped"},     {"encastre", "clamped"}, {"built-in", "clamped"},
+      {"rigid", "clamped"},     {"hinge", "pinned"},     {"hinged", "pinned"},
+      {"pin", "pinned"},        {"simple", "pinned"},    {"simply supported", "pinned"},
+      {"roller", "guided"},     {"slider", "guided"},    {"linear", "static"},
+      {"transient", "dynamic"}, {"modal", "modes"},      {"eigenvalues", "modes"},
+      {"left", "start"},        {"right", "end"},        {"begin", "start"},
+      {"first", "start"},       {"last", "end"}};
+  for (const auto& [other, here] : words)
+    if (edit_distance(word, other) == 0) return here;
+  return "";
+}
+
+bool is_place(const Shape& shape) {
+  return shape.kind == Kind::either && shape.items[1].kind == Kind::object &&
+         find_key(shape.items[1], "fraction") && find_key(shape.items[1], "near");
+}
+
+/// What was meant by a place of a beam that is none: "middle", or a number.
+std::string meant_place(const Json& value) {
+  const auto fraction = [](const std::string& x) { return "{ \"fraction\": " + x + " }"; };
+  if (value.is_number()) {
+    const double x = value.get<double>();
+    const std::string length = "{ \"length\": " + text_of(x) + " }";
+    return "; did you mean " + (x >= 0 && x <= 1 ? fraction(text_of(x)) + " or " : "") + length + "?";
+  }
+  if (!value.is_string()) return "";
+  for (const char* middle : {"middle", "mid", "midspan", "center", "centre", "half"})
+    if (edit_distance(value.get<std::string>(), middle) == 0)
+      return "; did you mean " + fraction("0.5") + "?";
+  return "";
 }
 
 /// Checks values against shapes, turns every quantity into a number in SI units, and makes what is unusable
@@ -186,6 +223,8 @@ class Checker {
              item.choices.end();
     };
     const Shape &first = shape.items[0], &second = shape.items[1];
+    if (const std::string meant = is_place(shape) ? meant_place(value) : ""; !meant.empty())
+      return failed(path, "is " + json_kind(value) + meant + " Expected " + expected(shape));
     const bool is_text_with_unit =
         value.is_string() && first.kind == Kind::choice && second.kind == Kind::quantity && !has_it(first);
     if (is_text_with_unit) return check(second, value, path);
@@ -197,8 +236,15 @@ class Checker {
   bool check_choice(const Shape& shape, const Json& value, const std::string& path) {
     if (!value.is_string()) return wrong_type(shape, value, path);
     const auto text = value.get<std::string>();
-    return std::find(shape.choices.begin(), shape.choices.end(), text) != shape.choices.end() ||
-           failed(path, in_quotes(text) + " is not known here" + known_names(text, shape.choices));
+    const auto has = [&](const std::string& word) {
+      return std::find(shape.choices.begin(), shape.choices.end(), word) != shape.choices.end();
+    };
+    if (has(text)) return true;
+    const std::string here = word_here(text);
+    return failed(
+        path, in_quotes(text) + " is not known here" +
+                  (has(here) ? "; did you mean " + in_quotes(here) + "? Known: " + quoted_list(shape.choices)
+                             : known_names(text, shape.choices)));
   }
 
   bool check_text(const Shape& shape, const Json& value, const std::string& path) {
@@ -209,8 +255,19 @@ class Checker {
     const auto is_barred = [](char c) {
       return c == ',' || c == '"' || (c >= 0 && c < ' ') || c == delete_character;
     };
-    if (shape.kind == Kind::name && std::any_of(text.begin(), text.end(), is_barred))
-      return failed(path, in_quotes(text) + ": a name must not hold commas, quotes or control characters");
+    if (shape.kind != Kind::name) return true;
+    constexpr std::size_t longest = 250;  // characters
+    const std::string shown = in_quotes(first_characters(text, longest));
+    if (const std::size_t length = character_count(text); length > longest)
+      return failed(path, shown + ": a name must have at most " + std::to_string(longest) +
+                              " characters, not " + std::to_string(length));
+    if (std::any_of(text.begin(), text.end(), is_barred))
+      return failed(path, shown + ": a name must not hold commas, quotes or control characters");
+    if (std::string_view("=+-@").find(text.front()) != std::string_view::npos)
+      return failed(path,
+                    shown +
+                        ": a name must not begin with = + - or @, which spreadsheets take for a formula in "
+                        "histories.csv; begin with a letter or a digit");
     return true;
   }
 
@@ -262,7 +319,6 @@ class Checker {
     if (!value.is_array()) return wrong_type(shape, value, path);
     if (value.empty()) return failed(path, "has no rows; expected " + expected(shape));
     const Shape argument = {.kind = Kind::quantity, .dimension = shape.argument};
-    const bool over_time = shape.argument == Dimension::time;
     const Shape entry = {.kind = Kind::quantity, .dimension = shape.dimension, .range = shape.range};
     double last = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -273,10 +329,15 @@ class Checker {
       for (std::size_t k = 0; k < row.size(); ++k)
         if (!check(k == 0 ? argument : entry, row[k], child(row_path, k))) return false;
       if (row[0].get<double>() <= last) {
-        const std::string unit = " " + default_unit(shape.argument);
-        return failed(row_path, (over_time ? "time " : "s = ") + text_of(row[0].get<double>(), all_digits) +
-                                    unit + " does not come after " + text_of(last, all_digits) + unit +
-                                    (over_time ? "; times must increase" : "; places must increase"));
+        const std::string unit =
+            shape.argument == Dimension::number ? "" : " " + default_unit(shape.argument);
+        const std::string values = shape.argument_name == "time" ? "times"
+                                   : shape.argument_name == "s"  ? "places"
+                                                                 : "its values";
+        const std::string is = shape.argument_name + (shape.argument_name == "s" ? " = " : " ");
+        return failed(row_path, is + text_of(row[0].get<double>(), all_digits) + unit +
+                                    " does not come after " + text_of(last, all_digits) + unit + "; " +
+                                    values + " must increase");
       }
       last = row[0].get<double>();
     }

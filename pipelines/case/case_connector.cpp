@@ -9,6 +9,9 @@ namespace nurbeam {
 
 namespace {
 
+// Whether no length of a spring carries anything.
+bool carries_nothing(const CaseConnector& connector) { return connector.stiffness == 0 && !connector.rows; }
+
 // A rod has a length and nothing else; the others need a stiffness.
 void check_stiffness(const Json& json, const std::string& path, const CaseConnector& connector,
                      Findings& findings) {
@@ -21,7 +24,7 @@ void check_stiffness(const Json& json, const std::string& path, const CaseConnec
   }
   if (!json.contains("stiffness"))
     findings.error(path, "\"stiffness\" is missing; all connectors but rods need it");
-  if (has(json, "force") && connector.stiffness == 0)
+  if (has(json, "force") && carries_nothing(connector))
     findings.error(child(path, "force"),
                    "is " + text_of(connector.force) +
                        " N, but the stiffness is 0, with which no length gives a force; give a stiffness");
@@ -83,7 +86,7 @@ void check_length(const CaseConnector& connector, const CaseAnalysis& analysis, 
     findings.error(path,
                    "is \"as-drawn\", but the first end is a point, which stands where it is drawn anyway; "
                    "exchange \"from\" and \"to\"");
-  if (connector.type != ConnectorType::rod && connector.stiffness == 0)
+  if (connector.type != ConnectorType::rod && carries_nothing(connector))
     findings.error(path, "is \"as-drawn\", but the stiffness is 0, with which no length carries anything");
 }
 

@@ -55,30 +55,33 @@ CaseSupport read_support(const Json& json, const std::string& path, Findings& fi
   return support;
 }
 
-void check_friction(const Friction& friction, const Json& joint, const std::string& path,
-                    Findings& findings) {
-  const Json& json = joint["friction"];
+void check_friction(const Friction& friction, const Json& json, const std::string& path, Findings& findings) {
   if (friction.static_coefficient && *friction.static_coefficient < friction.coefficient)
     findings.error(child(path, "static"),
                    "is " + text_of(*friction.static_coefficient) + ", less than \"coefficient\", " +
                        text_of(friction.coefficient) + "; a body that sticks is held at least as well");
   const auto is_given = [&](const char* key) { return json.contains(key); };  // be it wrong
-  if (!is_given("coefficient") && !is_given("static") && !is_given("force") && !is_given("viscous"))
-    findings.error(path, "resists nothing; give \"coefficient\", \"static\", \"force\" or \"viscous\"");
-  if (friction.law == Friction::Law::capstan && text(joint, "slope") != "discontinuous")
-    findings.error(child(path, "law"),
-                   "is \"capstan\", for the kink of a discontinuous slope, but the slope is continuous: "
-                   "\"slope\": \"discontinuous\", or leave it out");
+  if (!is_given("coefficient") && !is_given("static") && !is_given("force") && !is_given("force_over") &&
+      !is_given("viscous"))
+    findings.error(
+        path, "resists nothing; give \"coefficient\", \"static\", \"force\", \"force_over\" or \"viscous\"");
 }
 
 CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, Findings& findings) {
   CaseSlidingJoint joint = read_item(sliding_joint_fields(), json, path, findings);
-  if (joint.friction) check_friction(*joint.friction, json, child(path, "friction"), findings);
+  if (!joint.friction) return joint;
+  check_friction(*joint.friction, json["friction"], child(path, "friction"), findings);
+  if (joint.friction->law == Friction::Law::capstan && joint.slope == SlopeRule::continuous)
+    findings.error(child(path, "friction.law"),
+                   "is \"capstan\", for the kink of a discontinuous slope, but the slope is continuous: "
+                   "\"slope\": \"discontinuous\", or leave it out");
   return joint;
 }
 
 CaseEyelet read_eyelet(const Json& json, const std::string& path, Findings& findings) {
-  return read_item(eyelet_fields(), json, path, findings);
+  CaseEyelet eyelet = read_item(eyelet_fields(), json, path, findings);
+  if (eyelet.friction) check_friction(*eyelet.friction, json["friction"], child(path, "friction"), findings);
+  return eyelet;
 }
 
 CaseStop read_stop(const Json& json, const std::string& path, Findings& findings) {
@@ -138,7 +141,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
     const std::vector<double> factors = result.analysis.factors();
     if (!factors.empty()) result.analysis.end_time = factors.back();
   }
-  result.output = read_output(part(json, "output"), result.analysis, findings);
+  result.output = read_output(part(json, "output"), result.analysis, directory, findings);
   return result;
 }
 

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <set>
 #include <sstream>
 
+#include "cad_import/files/cad_file_name.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -50,6 +52,29 @@ bool is_not_a_finite_number(const std::string& word) {
   static const std::set<std::string> words = {"nan", "NaN", "NAN",      "inf",
                                               "Inf", "INF", "Infinity", "infinity"};
   return words.contains(word);
+}
+
+/// What people write that JSON does not have, at the place where the parser stops; empty for other faults.
+std::string common_fault(const std::string& text, std::size_t offset) {
+  const auto is_digit = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
+  std::size_t begin = std::min(offset, text.size());
+  while (begin > 0 && is_digit(begin) && is_digit(begin - 1)) --begin;
+  const std::size_t before = begin == 0 ? std::string::npos : text.find_last_not_of(" \t\r\n", begin - 1);
+  if (before == std::string::npos || text[before] != ',') return "";
+  const char here = offset < text.size() ? text[offset] : ' ';
+  if (here == '}' || here == ']')
+    return std::string("unexpected '") + here + "': a comma stands before the closing " + here +
+           "; remove the comma";
+  if (is_digit(begin) && before == begin - 1 && before > 0 && is_digit(before - 1)) {
+    std::size_t start = before, end = begin;
+    while (start > 0 && is_digit(start - 1)) --start;
+    while (is_digit(end)) ++end;
+    const std::string whole = text.substr(start, before - start), part = text.substr(begin, end - begin);
+    return whole + "," + part + " has a decimal comma; did you mean " + whole + "." + part + "?";
+  }
+  return "";
 }
 
 /// Watches the parser's events for keys that stand twice in one object.
@@ -103,11 +128,12 @@ std::optional<Json> parse_json(const std::string& text, Findings& findings) {
     return Json::parse(text, DuplicateKeys(findings), true, true);
   } catch (const Json::parse_error& error) {
     const std::size_t offset = error.byte == 0 ? 0 : error.byte - 1;
-    const std::string word = word_at(text, offset);
+    const std::string word = word_at(text, offset), fault = common_fault(text, offset);
     findings.error(line_and_column(text, offset),
                    is_not_a_finite_number(word)
                        ? word + " is not a number a case file can hold; write a finite number"
-                       : bare_message(error.what()));
+                   : fault.empty() ? bare_message(error.what())
+                                   : fault);
   } catch (const Json::out_of_range& error) {  // a number too large for a double
     const std::string message = bare_message(error.what());
     const auto begin = message.find('\''), end = message.rfind('\'');
@@ -120,6 +146,21 @@ std::optional<Json> parse_json(const std::string& text, Findings& findings) {
 
 namespace {
 
+/// What else was meant by a file that is not there.
+std::string json_files_beside(const std::filesystem::path& file) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> names;
+  const std::filesystem::path folder = file.parent_path();
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, failed))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().filename().string());
+  if (failed) return "; there is no folder " + in_quotes(folder.string());
+  if (names.empty()) return "; there is no .json file in its folder";
+  std::sort(names.begin(), names.end());
+  if (names.size() > most) names.resize(most);
+  return known_names(file.filename().string(), names);
+}
+
 std::optional<std::string> read_text(const std::filesystem::path& file, const JsonFileKind& kind,
                                      Findings& findings) {
   const std::string expected = "; expected a " + std::string(kind.name) + " (JSON)";
@@ -127,15 +168,21 @@ std::optional<std::string> read_text(const std::filesystem::path& file, const Js
     findings.error("", "is a directory" + expected);
     return {};
   }
-  if (std::filesystem::is_block_file(file) || std::filesystem::is_character_file(file)) {
-    findings.error("", "is a device" + expected);
+  if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)) {
+    findings.error("", "is a device or a pipe" + expected);
     return {};
   }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
+  if (text.bad()) throw std::bad_alloc();  // streams keep it to themselves
   if (!stream.is_open() || stream.bad()) {
-    findings.error("", std::string("cannot be read: ") + std::strerror(errno));
+    findings.error("", std::string("cannot be read: ") + std::strerror(errno) + json_files_beside(file));
+    return {};
+  }
+  if (is_named_as_cad_file(file)) {
+    findings.error("", "is a CAD file" + expected + ", which names it: \"axis\": { \"file\": " +
+                           in_quotes(file.filename().string()) + " }; \"nurbeam inspect\" lists its curves");
     return {};
   }
   if (text.str().find_first_not_of(" \t\r\n") == std::string::npos) {

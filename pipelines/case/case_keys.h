@@ -52,6 +52,7 @@ struct Shape {
   Dimension dimension = Dimension::number;
   Range range = {};
   Dimension argument = Dimension::time;
+  std::string argument_name = "time";
   int values = 1;
 };
 

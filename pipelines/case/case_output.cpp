@@ -22,11 +22,13 @@ Shape output_shape() {
         "time between stored frames; a hundredth of `end_time` when omitted, but no less than `step`"},
        {"cad", cad, "deformed axes as CAD files"},
        {"probes", short_array(probe_fields().shape()), "points whose motion is stored"},
+       {"clearances", short_array(clearance_fields().shape()), "heights of beams over the ground"},
        {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
        {"report", boolean(), "report.html; true when omitted"}});
 }
 
-CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings& findings) {
+CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, const std::filesystem::path& directory,
+                       Findings& findings) {
   CaseOutput output;
   constexpr int default_frames = 100;
   if (analysis.type == CaseAnalysis::Type::dynamic)
@@ -58,6 +60,11 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, Findings&
     CaseProbe& added = output.probes.emplace_back();
     added.path = path;
     probe_fields().read(probe, path, added, findings);
+  });
+  for_each_item(json, "clearances", "output", [&](const Json& clearance, const std::string& path) {
+    CaseClearance& added = output.clearances.emplace_back();
+    added.path = path;
+    clearance_fields(directory).read(clearance, path, added, findings);
   });
   output.paraview = flag(json, "paraview");
   output.report = !has(json, "report") || flag(json, "report");

@@ -39,10 +39,11 @@ void check_names(const Json& json, Findings& findings) {
   const auto beams = collect(json, "beams", "");
   check_unique(beams, findings);
   auto columns = collect(json, "bodies", "");  // these head columns of the same table
-  const auto probes = collect(part(json, "output"), "probes", "output");
+  const auto probes = collect(part(json, "output"), "probes", "output"),
+             clearances = collect(part(json, "output"), "clearances", "output");
   const auto supports = collect(json, "supports", ""), joints = collect(json, "joints", "");
   const auto connectors = collect(json, "connectors", ""), eyelets = collect(json, "eyelets", "");
-  for (const auto& more : {probes, supports, joints, connectors, eyelets})
+  for (const auto& more : {probes, clearances, supports, joints, connectors, eyelets})
     columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
   // The columns of a vector belong to the body: "B.joint_force.x".
@@ -121,7 +122,8 @@ void check_references(const Json& json, Findings& findings) {
     check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
     check_references(json, json, "eyelets", "", "beam", *beams, findings);
     check_references(json, json, "stops", "", "beam", *beams, findings);
-    check_references(json, part(json, "output"), "probes", "output", "beam", *beams, findings);
+    for (const char* key : {"probes", "clearances"})
+      check_references(json, part(json, "output"), key, "output", "beam", *beams, findings);
     check_connector_ends(json, "beam", *beams, findings);
     for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
       for_each_item(joint, "beams", path, [&](const Json& name, const std::string& name_path) {
@@ -166,6 +168,12 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
   check_division("output.every", "stored frames", c.output.every, c.analysis, most_frames, findings);
   check_division("analysis.step", "steps", c.analysis.step, c.analysis, most_steps, findings);
   const bool has_end = c.analysis.end_time > 0;  // else it is said what is wrong with it
+  if (dynamic && has_end && c.analysis.step && *c.analysis.step > c.analysis.end_time)
+    findings.warn("analysis.step", "is " + text_of(*c.analysis.step, all_digits) +
+                                       " s, longer than the motion, which ends at analysis.end_time, " +
+                                       text_of(c.analysis.end_time, all_digits) +
+                                       " s: one step would be all of it; a hundredth of the motion, " +
+                                       text_of(c.analysis.end_time / 100, all_digits) + " s, shows more");
   for (std::size_t i = 0; dynamic && has_end && i < c.output.cad_times.size(); ++i) {
     if (c.output.cad_times[i] > c.analysis.end_time) {
       findings.error(child("output.cad.times", i), "is " + text_of(c.output.cad_times[i], all_digits) +
@@ -201,6 +209,21 @@ void check_cad_factors(const CaseFile& c, Findings& findings) {
   }
 }
 
+/// Buckling takes the stiffness of strains for constant.
+void check_laws_of_buckling(const CaseFile& c, Findings& findings) {
+  const auto refuse = [&](const std::string& path) {
+    findings.error(
+        path,
+        "is a law whose stiffness changes with the strain, and \"buckling\" takes it for constant; "
+        "use \"green\" or a number, or a \"static\" analysis with \"load_steps\"");
+  };
+  for (const CaseBeam& beam : c.beams)
+    if (beam.material.law && !std::holds_alternative<GreenLaw>(*beam.material.law))
+      refuse(beam.path + ".material.law");
+  for (const CaseConnector& connector : c.connectors)
+    if (connector.rows) refuse(connector.path + ".stiffness");
+}
+
 /// Small vibrations and buckling want loads with an energy; buckling wants loads.
 void check_modes(const CaseFile& c, Findings& findings) {
   if (!c.analysis.has_modes()) return;
@@ -210,6 +233,7 @@ void check_modes(const CaseFile& c, Findings& findings) {
         "analysis.type",
         "is \"buckling\", but there are no \"loads\", whose factors it computes; gravity is none of "
         "them");
+  if (buckling) check_laws_of_buckling(c, findings);
   if (!buckling && !c.analysis.modes.about_equilibrium) return;
   for (const CaseLoad& load : c.loads)
     if (load.follower)
@@ -238,7 +262,6 @@ void check_keys_of_motions(const Json& json, const CaseAnalysis& analysis, Findi
   const std::string here = analysis.has_modes() ? "on modes and buckling" : "in a static analysis";
   for (const char* key : {"end_time", "step", "tolerance", "initial", "integrator"})
     if (has(part(json, "analysis"), key)) findings.warn(child("analysis", key), "has no effect " + here);
-  if (has(part(json, "output"), "every")) findings.warn("output.every", "has no effect " + here);
   for_each_item(json, "beams", "", [&](const Json& beam, const std::string& path) {
     if (has(part(beam, "initial"), "velocity"))
       findings.warn(child(path, "initial.velocity"), "is of the start of a motion: nothing moves " + here);

@@ -84,7 +84,8 @@ Json schema_of(const Shape& shape) {
     case Kind::text:
       return {{"type", "string"}, {"minLength", 1}};
     case Kind::name:
-      return {{"type", "string"}, {"pattern", "^[^,\"\\u0000-\\u001f\\u007f]+$"}};
+      return {
+          {"type", "string"}, {"maxLength", 250}, {"pattern", "^(?![=+@-])[^,\"\\u0000-\\u001f\\u007f]+$"}};
     case Kind::boolean:
       return {{"type", "boolean"}};
     case Kind::integer:

@@ -67,10 +67,21 @@ struct Field {
   }
 };
 
+/// A key that a function takes. Key and function are set one after the other: where memory runs short, gcc 12
+/// destroys an aggregate within an aggregate twice.
+template <class Owner>
+Field<Owner> field_by(const char* name, Shape shape, const char* help,
+                      std::function<void(const Json&, const std::string& path, Owner&, Findings&)> read) {
+  Field<Owner> row;
+  row.key = Key{name, std::move(shape), help};
+  row.read = std::move(read);
+  return row;
+}
 template <class Owner, class Member>
 Field<Owner> field(Member Owner::*member, const char* name, Shape shape, const char* help) {
-  return {{name, std::move(shape), help},
-          [member](const Json& value, const std::string&, Owner& to, Findings&) { take(value, to.*member); }};
+  return field_by<Owner>(
+      name, std::move(shape), help,
+      [member](const Json& value, const std::string&, Owner& to, Findings&) { take(value, to.*member); });
 }
 /// One of several values by their texts.
 template <class Owner, class Value>
@@ -78,17 +89,11 @@ Field<Owner> choice_field(Value Owner::*member, const char* name,
                           const std::vector<std::pair<const char*, Value>>& values, const char* help) {
   std::vector<std::string> names;
   for (const auto& [text, value] : values) names.emplace_back(text);
-  return {{name, shapes::choice(std::move(names)), help},
-          [member, values](const Json& value, const std::string&, Owner& to, Findings&) {
-            for (const auto& [text, chosen] : values)
-              if (text_of_choice(value) == text) to.*member = chosen;
-          }};
-}
-/// A key that a function takes.
-template <class Owner>
-Field<Owner> field_by(const char* name, Shape shape, const char* help,
-                      std::function<void(const Json&, const std::string& path, Owner&, Findings&)> read) {
-  return {{name, std::move(shape), help}, std::move(read)};
+  return field_by<Owner>(name, shapes::choice(std::move(names)), help,
+                         [member, values](const Json& value, const std::string&, Owner& to, Findings&) {
+                           for (const auto& [text, chosen] : values)
+                             if (text_of_choice(value) == text) to.*member = chosen;
+                         });
 }
 
 /// All rows of an object.
@@ -116,10 +121,11 @@ struct Fields {
 template <class Owner, class Part>
 Field<Owner> object_field(Part Owner::*member, const char* name, const Fields<Part>& fields,
                           const char* help) {
-  return {{name, fields.shape(), help},
-          [member, fields](const Json& value, const std::string& path, Owner& to, Findings& findings) {
-            fields.read(value, path, to.*member, findings);
-          }};
+  return field_by<Owner>(
+      name, fields.shape(), help,
+      [member, fields](const Json& value, const std::string& path, Owner& to, Findings& findings) {
+        fields.read(value, path, to.*member, findings);
+      });
 }
 
 }  // namespace nurbeam

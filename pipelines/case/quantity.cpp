@@ -279,6 +279,11 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
     return failed("does not begin with a finite number; expected " +
                   std::string(is_plain ? "" : "a number and a unit of ") + expected);
   rest.remove_prefix(end - rest.data());
+  if (rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9') {
+    std::string with_point(text);
+    with_point[text.size() - rest.size()] = '.';
+    return failed("has a decimal comma; did you mean " + in_quotes(with_point) + "?");
+  }
   const bool has_unit = rest.find_first_not_of(' ') != std::string_view::npos;
   if (is_plain && has_unit) return failed("has a unit; expected a plain number");
   const UnitProduct product = parse_units(plain(rest), unit_examples(dimension));

@@ -56,10 +56,17 @@ inline Shape table(Dimension dimension, Range range = {}) {
 inline Shape vector_table(Dimension dimension, Range of_components) {
   return {.kind = Kind::table, .dimension = dimension, .range = std::move(of_components), .values = 3};
 }
+/// Rows [argument, value], with the argument's name.
+inline Shape rows_over(std::string name, Dimension argument, Dimension dimension, Range range) {
+  return {.kind = Kind::table,
+          .dimension = dimension,
+          .range = std::move(range),
+          .argument = argument,
+          .argument_name = std::move(name)};
+}
 /// Rows [s, value].
 inline Shape table_over_length(Dimension dimension, Range range) {
-  return {
-      .kind = Kind::table, .dimension = dimension, .range = std::move(range), .argument = Dimension::length};
+  return rows_over("s", Dimension::length, dimension, std::move(range));
 }
 
 /// A point in the world.

@@ -158,8 +158,16 @@ class TableFile {
 
   bool read() {
     std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(file_, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // it may block
+      findings_.error(child(path_, "file"),
+                      in_quotes(file_.string()) + " is a " +
+                          (std::filesystem::is_directory(status) ? "directory" : "device or pipe") +
+                          "; expected a CSV file");
+      return false;
+    }
     std::ifstream stream(file_);
-    if (!std::filesystem::is_regular_file(file_, ignored) || !stream) {
+    if (!stream) {
       findings_.error(child(path_, "file"), "there is no file " + in_quotes(file_.string()) +
                                                 "; expected a CSV file, relative to the one that names it");
       return false;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <ostream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "fem/motion/record/snapshot.h"
 #include "fem/system/initial_state.h"
@@ -42,8 +45,7 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
   out << "beam      " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
       << text_of(L, place_digits) << " m, mass " << size(L * p.mass_per_length) << " kg, "
       << beam.curve.segment_count() << " CAD segments, " << beam.home.size() - 1 << " elements of "
-      << size(shortest) << " to " << size(longest) << " m, EA "
-      << size(p.axial_stiffness * stretch * stretch * stretch) << " N, ";
+      << size(shortest) << " to " << size(longest) << " m, EA " << size(p.free_axial_stiffness()) << " N, ";
   if (p.sections)
     out << "EI1 " << size(p.sections->bending_1 * stretch) << ", EI2 "
         << size(p.sections->bending_2 * stretch) << ", EI12 " << size(p.sections->bending_product * stretch)
@@ -52,8 +54,9 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
     out << "EI " << size(p.bending_stiffness * stretch);
   out << " N m^2, stress-free " << (beam.curve.straight() ? "straight" : "as drawn");
   if (stretch != 1) out << ", unstressed length " << text_of(L * stretch, place_digits) << " m";
-  if (p.free_strain.of_tension != 0)
-    out << ", tension " << size(-p.free_strain.of_tension * p.axial_stiffness) << " N as drawn";
+  if (p.free_strain.of_tension != 0) out << ", tension " << size(p.drawn_tension()) << " N as drawn";
+  if (std::holds_alternative<HookeLaw>(p.law)) out << ", Hooke's law of force over stretch";
+  if (std::holds_alternative<ForceOverStretch>(p.law)) out << ", force over stretch by rows";
   if (!p.free_strain.thermal.empty()) out << ", with a temperature";
   if (drawn_bending > 0) out << ", " << size(drawn_bending) << " J of bending as drawn";
   out << '\n';
@@ -71,9 +74,23 @@ void print_torsion(std::ostream& out, const Beam& beam, const std::string& torsi
 
 void print_corners(std::ostream& out, const Beam& beam) {
   for (const HomeNode& node : beam.home)
-    if (node.kind != NodeKind::smooth)
+    if (node.kind == NodeKind::rigid || node.kind == NodeKind::hinge)
       out << "corner    of " << beam.name << " at " << place(node.s) << ", "
           << (node.kind == NodeKind::rigid ? "rigid" : "a hinge") << '\n';
+}
+
+// Of each beam: what was decided of places with the same reason, the first of them by name.
+void print_slopes(std::ostream& out, const BuiltModel& built) {
+  std::map<std::tuple<int, bool, std::string>, std::vector<const SlopeDecision*>> alike;
+  for (const SlopeDecision& slope : built.slopes)
+    alike[{slope.beam, slope.discontinuous, slope.why}].push_back(&slope);
+  for (const auto& [key, places] : alike) {
+    const auto& [b, is_kink, why] = key;
+    out << "slope     of " << built.model.beams[b].name << " at " << place(places.front()->s) << ", "
+        << places.front()->path;
+    if (places.size() > 1) out << ", and " << places.size() - 1 << " more";
+    out << ": " << (is_kink ? "may jump" : "is continuous") << "; " << why << '\n';
+  }
 }
 
 void print_materials(std::ostream& out, const CaseFile& case_file) {
@@ -119,7 +136,8 @@ void print_connectors(std::ostream& out, const BeamModel& model) {
     out << "connector " << connector.name << ": " << end_text(connector.ends[0]) << " to "
         << end_text(connector.ends[1]);
     if (connector.type != ConnectorType::rod)
-      out << ", " << text_of(connector.stiffness, size_digits) << " N/m";
+      out << ", " << text_of(connector.stiffness, size_digits) << " N/m"
+          << (connector.rows ? " where it is not stretched, by rows" : "");
     if (connector.length_rule == ConnectorLength::given)
       out << ", length " << text_of(connector.length, place_digits) << " m";
     out << '\n';
@@ -155,11 +173,15 @@ int check_case(const CaseFile& case_file, std::ostream& out, std::ostream& err) 
   const BeamSystem system(model);
   out << "model     " << (model.dimension == 2 ? "planar" : "spatial") << ", " << system.coordinate_count()
       << " coordinates\n";
+  const Eigen::Vector3d& g = case_file.gravity;
+  const auto size = [](double value) { return text_of(value, size_digits); };
+  out << "gravity   [" << size(g.x()) << ", " << size(g.y()) << ", " << size(g.z()) << "] m/s^2\n";
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     print_beam(out, model.beams[b], report.value->sources[b].drawn_bending);
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     print_torsion(out, model.beams[b], report.value->sources[b].torsion);
   for (const Beam& beam : model.beams) print_corners(out, beam);
+  print_slopes(out, *report.value);
   print_mismatch(out, system);
   if (const auto& adapted = report.value->adapted)
     out << "mesh      positions off by about " << text_of(adapted->error, 2) << " of a beam's length, by the "

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <ostream>
 
 #include "pipelines/command/manual.h"
@@ -20,6 +21,26 @@ const Item& find_by_name(const std::vector<Item>& items, const std::string& name
     throw UsageError(std::string("unknown ") + what + " " + in_quotes(name) +
                      known_names(name, names_of(items)));
   return *found;
+}
+
+// The name of the first argument: "IN.step" of "IN.step...", "CASE.json" of "CASE.json OUT".
+std::string first_name(const std::string& arguments) {
+  const std::string first = arguments.substr(0, arguments.find(' '));
+  return first.substr(0, first.find("..."));
+}
+
+// The files in the present folder that an argument may be.
+std::string files_here(const std::string& argument) {
+  constexpr std::size_t most = 20;
+  if (!argument.ends_with(".json")) return "";
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(".", ignored))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().filename().string());
+  if (names.empty()) return "; there is no .json file in this folder";
+  std::sort(names.begin(), names.end());
+  if (names.size() > most) names.resize(most);
+  return "; in this folder there are: " + quoted_list(names);
 }
 
 // The parser of one command, and what it has read.
@@ -73,6 +94,9 @@ class Parser {
       else if (option.required)
         throw UsageError("the option " + option.name + " is missing");
     }
+    if (positional_.empty() && command_.min_positional > 0)
+      throw UsageError("no " + first_name(command_.positional) + " is given" +
+                       files_here(command_.positional));
     if (positional_.size() < command_.min_positional || positional_.size() > command_.max_positional)
       throw UsageError("has " + std::to_string(positional_.size()) + " argument(s) besides its options");
     return arguments;
@@ -110,6 +134,9 @@ int run_command_by_name(const std::vector<Command>& table, const std::vector<std
     return fail(exit_bad_input, error);
   } catch (const std::filesystem::filesystem_error& error) {
     streams.err << "error: " << error.path1().string() << ": " << error.code().message() << '\n';
+    return command.failure;
+  } catch (const std::bad_alloc&) {
+    streams.err << "error: there is not enough memory; free some, or use fewer elements\n";
     return command.failure;
   } catch (const std::exception& error) {
     return fail(command.failure, error);

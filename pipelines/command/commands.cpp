@@ -64,9 +64,10 @@ int run_command(const Arguments& arguments, Streams streams) {
 }
 
 std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time,
-                                                        CurveParameter parameter) {
+                                                        CurveParameter parameter, WholeConics conics,
+                                                        double exaggeration) {
   try {
-    return stored_curves(directory, time, parameter);
+    return stored_curves(directory, time, parameter, conics, exaggeration);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(error.what());  // what cannot be read is bad input
   }
@@ -92,7 +93,13 @@ int export_command(const Arguments& arguments, Streams streams) {
   const StepSchema schema = step_schema(arguments.value("--schema", "ap214"));
   if (arguments.has("--schema") && written_format(file) != CadFormat::step)
     throw UsageError("--schema: is that of a STEP file, which " + file + " is not; name it .step or .stp");
-  const auto [stored_time, curves] = read_results(arguments.positional[0], time, parameter);
+  const WholeConics conics =
+      arguments.has("--solid") ? WholeConics::smooth : whole_conics_in(written_format(file));
+  const auto [stored_time, curves] = read_results(
+      arguments.positional[0], time, parameter, conics,
+      quantity_argument("--exaggerate", arguments.value("--exaggerate", "1"), Dimension::number));
+  if (const auto warning = missing_checksum(arguments.positional[0]))
+    print_diagnostics(streams.err, {*warning});
   std::vector<Diagnostic> found;
   if (arguments.has("--solid")) {
     const double radius = quantity_argument("--solid", arguments.value("--solid", ""), Dimension::length);
@@ -139,6 +146,7 @@ int schema_command(const Arguments& arguments, Streams streams) {
 int report_command(const Arguments& arguments, Streams streams) {
   const std::filesystem::path directory = arguments.positional[0];
   write_report(directory);
+  if (const auto warning = missing_checksum(directory)) print_diagnostics(streams.err, {*warning});
   streams.err << "note: " << (directory / "report.html").string() << " written\n";
   return exit_done;
 }
@@ -158,98 +166,119 @@ int manual_command(const Arguments&, Streams streams) {
 
 constexpr std::size_t any_number = std::string::npos;
 
-const CommandOption set_option{"--set", "path=value",
-                               "changes the case before it is checked; null removes a key or an item", false,
-                               true};
+CommandOption set_option() {
+  return {"--set", "path=value", "changes the case before it is checked; null removes a key or an item",
+          false, true};
+}
 
-const Command inspect_entry{
-    "inspect",
-    "FILE...",
-    "lists the curves of STEP, IGES, DXF, BREP and JSON files; with --profile: the section that they draw",
-    1,
-    any_number,
-    {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
-    inspect_command};
+Command inspect_entry() {
+  return {
+      "inspect",
+      "FILE...",
+      "lists the curves of STEP, IGES, DXF, BREP and JSON files; with --profile: the section that they draw",
+      1,
+      any_number,
+      {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
+      inspect_command};
+}
 
-const Command check_entry{"check",      "CASE.json",  "reads and resolves a case, runs nothing", 1, 1,
-                          {set_option}, check_command};
+Command check_entry() {
+  return {"check",        "CASE.json",  "reads and resolves a case, runs nothing", 1, 1,
+          {set_option()}, check_command};
+}
 
-const Command run_entry{"run",
-                        "CASE.json",
-                        "runs a case",
-                        1,
-                        1,
-                        {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
-                         {"--resume", "", "goes on from the restart point in that directory"},
-                         {"--quiet", "", "no progress"},
-                         {"--threads", "N", "the most threads that share a long beam; otherwise one a core"},
-                         set_option},
-                        run_command,
-                        exit_not_written};
+Command run_entry() {
+  return {"run",
+          "CASE.json",
+          "runs a case",
+          1,
+          1,
+          {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
+           {"--resume", "", "goes on from the restart point in that directory"},
+           {"--quiet", "", "no progress"},
+           {"--threads", "N", "the most threads that share a long beam; otherwise one a core"},
+           set_option()},
+          run_command,
+          exit_not_written};
+}
 
-const Command export_entry{
-    "export",
-    "RESULTS_DIR",
-    "writes the deformed curves at a stored time; with --solid, as rods of that radius, with --bore as "
-    "pipes",
-    1,
-    1,
-    {{"--time", "T", "the nearest stored one is taken", true},
-     {"--to", "FILE",
-      "STEP, IGES, DXF, BREP, JSON or SVG by its ending: .step, .igs, .dxf, .brep, .json, .svg", true},
-     {"--unit", "mm|m|inch", "of the file; otherwise mm"},
-     {"--parameter", "free|material", "fewest control points, or the material coordinate; otherwise free"},
-     {"--schema", "ap214|ap242", "of a STEP file; otherwise ap214"},
-     {"--solid", "RADIUS", "solids instead of curves, in STEP or BREP"},
-     {"--bore", "RADIUS", "makes the solids pipes"}},
-    export_command,
-    exit_not_written};
+Command export_entry() {
+  return {
+      "export",
+      "RESULTS_DIR",
+      "writes the deformed curves at a stored time; with --solid, as rods of that radius, with --bore as "
+      "pipes",
+      1,
+      1,
+      {{"--time", "T", "the nearest stored one is taken", true},
+       {"--to", "FILE",
+        "STEP, IGES, DXF, BREP, JSON or SVG by its ending: .step, .igs, .dxf, .brep, .json, .svg", true},
+       {"--unit", "mm|m|inch", "of the file; otherwise mm"},
+       {"--parameter", "free|material", "fewest control points, or the material coordinate; otherwise free"},
+       {"--schema", "ap214|ap242", "of a STEP file; otherwise ap214"},
+       {"--exaggerate", "N", "displacements from the drawing times N; otherwise 1, as they are"},
+       {"--solid", "RADIUS", "solids instead of curves, in STEP or BREP"},
+       {"--bore", "RADIUS", "makes the solids pipes"}},
+      export_command,
+      exit_not_written};
+}
 
-const Command compare_entry{
-    "compare",
-    "A B",
-    "largest distance between the curves of two CAD files",
-    2,
-    2,
-    {{"--tolerance", "LENGTH", "above which they differ [m]; otherwise 1e-6 of their size"}},
-    compare_command};
+Command compare_entry() {
+  return {"compare",
+          "A B",
+          "largest distance between the curves of two CAD files",
+          2,
+          2,
+          {{"--tolerance", "LENGTH", "above which they differ [m]; otherwise 1e-6 of their size"}},
+          compare_command};
+}
 
-const Command schema_entry{
-    "schema",
-    "[case | study | curves]",
-    "prints the JSON schema of the case file, of the study file, or of files of curves",
-    0,
-    1,
-    {},
-    schema_command};
+Command schema_entry() {
+  return {"schema",
+          "[case | study | curves]",
+          "prints the JSON schema of the case file, of the study file, or of files of curves",
+          0,
+          1,
+          {},
+          schema_command};
+}
 
-const Command report_entry{"report",
-                           "RESULTS_DIR",
-                           "writes report.html anew: the 3-D view, plots and tables of a run",
-                           1,
-                           1,
-                           {},
-                           report_command,
-                           exit_not_written};
+Command report_entry() {
+  return {"report",
+          "RESULTS_DIR",
+          "writes report.html anew: the 3-D view, plots and tables of a run",
+          1,
+          1,
+          {},
+          report_command,
+          exit_not_written};
+}
 
-const Command study_entry{
-    "study",
-    "[check] STUDY.json",
-    "runs the variants of a study and answers its question; with check: says what it would run",
-    1,
-    2,
-    {{"--out", "DIR", "the directory for the results; otherwise STUDY_study"},
-     {"--jobs", "N", "variants that run at a time; otherwise one for each core"},
-     {"--resume", "", "goes on with the variants that are not there yet"},
-     {"--quiet", "", "no progress"}},
-    study_command_line,
-    exit_not_written};
+Command study_entry() {
+  return {"study",
+          "[check] STUDY.json",
+          "runs the variants of a study and answers its question; with check: says what it would run",
+          1,
+          2,
+          {{"--out", "DIR", "the directory for the results; otherwise STUDY_study"},
+           {"--jobs", "N", "variants that run at a time; otherwise one for each core"},
+           {"--resume", "", "goes on with the variants that are not there yet"},
+           {"--quiet", "", "no progress"}},
+          study_command_line,
+          exit_not_written};
+}
 
-const Command completion_entry{
-    "completion", "[bash]",          "prints a script that completes commands and options in the shell", 0, 1,
-    {},           completion_command};
+Command completion_entry() {
+  return {"completion",
+          "[bash]",
+          "prints a script that completes commands and options in the shell",
+          0,
+          1,
+          {},
+          completion_command};
+}
 
-const Command manual_entry{"manual", "", "prints the manual page (roff)", 0, 0, {}, manual_command};
+Command manual_entry() { return {"manual", "", "prints the manual page (roff)", 0, 0, {}, manual_command}; }
 
 }  // namespace
 
@@ -274,20 +303,20 @@ int whole_number(const Arguments& arguments, const std::string& option, int othe
 }
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> table = {inspect_entry,
-                                             check_entry,
-                                             run_entry,
-                                             export_entry,
+  static const std::vector<Command> table = {inspect_entry(),
+                                             check_entry(),
+                                             run_entry(),
+                                             export_entry(),
                                              convert_entry(),
                                              transform_entry(),
-                                             compare_entry,
-                                             schema_entry,
-                                             report_entry,
+                                             compare_entry(),
+                                             schema_entry(),
+                                             report_entry(),
                                              verify_entry(become_verify),
                                              bench_entry(become_bench),
-                                             study_entry,
-                                             completion_entry,
-                                             manual_entry};
+                                             study_entry(),
+                                             completion_entry(),
+                                             manual_entry()};
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "cad_import/export_curves.h"
 #include "nurbs/curve_chain.h"
@@ -113,7 +114,7 @@ void join_chains(const ImportReport& report, bool exact, CurvesUnderWay& way) {
       way.say(exact ? Severity::error : Severity::note, report.file,
               "the widest gap between curves that are joined is " + text_of(whole.gap) + " m" +
                   (exact ? "; --exact does not close it" : "; both ends were moved midway"));
-    chains.push_back({first.name, std::move(whole.curve), first.part});
+    chains.push_back({first.name, std::move(whole.curve), first.part, first.layer, first.colour});
   }
   way.curves = std::move(chains);
 }
@@ -125,7 +126,7 @@ void split(const std::vector<double>& parameters, CurvesUnderWay& way) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const std::string number = parts.size() > 1 ? std::to_string(i + 1) : "";
       const std::string space = named.name.empty() || number.empty() ? "" : " ";
-      pieces.push_back({named.name + space + number, parts[i], named.part});
+      pieces.push_back({named.name + space + number, parts[i], named.part, named.layer, named.colour});
     }
   }
   if (pieces.size() == way.curves.size()) {
@@ -160,12 +161,35 @@ void check_format(CadFormat format, bool exact, const std::filesystem::path& to,
                        : "become cubics within 1e-6 of the size of the drawing"));
 }
 
-void note_colours(const ImportReport& report, const std::vector<int>& indices, CurvesUnderWay& way) {
-  const auto coloured =
-      std::count_if(indices.begin(), indices.end(), [&](int i) { return !report.curves[i].colour.empty(); });
-  if (coloured > 0)
-    way.say(Severity::note, report.file,
-            "the colours of " + std::to_string(coloured) + " curve(s) are not written");
+/// What a curve has that its format does not hold, as far as its name does not say the same.
+struct Lost {
+  bool name = false, layer = false, part = false, colour = false;
+};
+
+Lost lost_of(const NamedCurve& curve, CadFormat format) {
+  const bool is_brep = format == CadFormat::brep, is_dxf = format == CadFormat::dxf;
+  const bool has_layers = is_dxf || format == CadFormat::step || format == CadFormat::json ||
+                          (format == CadFormat::iges && level_number(curve.layer) > 0);
+  const bool has_parts = format == CadFormat::step || format == CadFormat::json;
+  const bool other_layer = !curve.layer.empty() && curve.layer != curve.name;
+  const bool other_part = !curve.part.empty() && curve.part.substr(curve.part.rfind('/') + 1) != curve.name;
+  return {!curve.name.empty() && (is_brep || (is_dxf && other_layer)), other_layer && !has_layers,
+          other_part && !has_parts, !curve.colour.empty() && is_brep};
+}
+
+/// In one line, how many names, layers, parts and colours are not written.
+void tell_what_is_lost(CadFormat format, const std::filesystem::path& to, CurvesUnderWay& way) {
+  std::string all;
+  for (const auto& [what, member] : {std::pair("names", &Lost::name), std::pair("layers", &Lost::layer),
+                                     std::pair("parts", &Lost::part), std::pair("colours", &Lost::colour)}) {
+    const auto number =
+        std::count_if(way.curves.begin(), way.curves.end(),
+                      [&, of = member](const NamedCurve& curve) { return lost_of(curve, format).*of; });
+    if (number > 0) all += (all.empty() ? "" : ", ") + std::string(what) + " of " + std::to_string(number);
+  }
+  if (!all.empty())
+    way.say(Severity::note, to.string(),
+            "not written, as its format has no place for them: " + all + " curve(s)");
 }
 
 LengthUnit unit_of(const ImportReport& report, CadFormat format) {
@@ -180,12 +204,12 @@ CurvesUnderWay converted(const ImportReport& report, CadFormat format, const std
   const std::vector<int> indices = chosen(conversion, report, way);
   for (const int i : indices)
     way.curves.push_back({name_of(report.curves[i]), moved_curve(report.curves[i].curve, conversion.map),
-                          report.curves[i].part});
+                          report.curves[i].part, report.curves[i].layer, report.curves[i].colour});
   if (conversion.exact) check_exactness(report, indices, way);
   if (conversion.join) join_chains(report, conversion.exact, way);
   if (!conversion.split_at.empty()) split(conversion.split_at, way);
   check_format(format, conversion.exact, to, way);
-  note_colours(report, indices, way);
+  tell_what_is_lost(format, to, way);
   return way;
 }
 

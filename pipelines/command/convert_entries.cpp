@@ -99,14 +99,15 @@ int transform_command(const Arguments& arguments, Streams streams) {
   return convert_file(arguments.positional[0], arguments.positional[1], conversion, streams.out, streams.err);
 }
 
-const std::vector<CommandOption> common_options{
-    {"--unit", "mm|m|inch", "of OUT; otherwise that of IN, or mm"},
-    {"--curve", "NAME|N", "only this curve, by its name or number; otherwise all that are not hidden", false,
-     true},
-    {"--exact", "", "refuses what would be approximated"}};
+std::vector<CommandOption> common_options() {
+  return {{"--unit", "mm|m|inch", "of OUT; otherwise that of IN, or mm"},
+          {"--curve", "NAME|N", "only this curve, by its name or number; otherwise all that are not hidden",
+           false, true},
+          {"--exact", "", "refuses what would be approximated"}};
+}
 
 std::vector<CommandOption> with_common(std::vector<CommandOption> options) {
-  options.insert(options.end(), common_options.begin(), common_options.end());
+  for (CommandOption& option : common_options()) options.push_back(std::move(option));
   return options;
 }
 

@@ -34,6 +34,8 @@ std::string millimetres(double metres) { return text_of(1000 * metres, 9) + " mm
 // What the table adds to the kind of a centre line.
 std::string pipe_of(const ImportedCurve& curve) {
   if (!curve.is_centre_line()) return "";
+  if (curve.bar.area > 0)
+    return " of a hollow bar, " + millimetres(curve.bar.width) + " by " + millimetres(curve.bar.height);
   const std::string bore = curve.bore_radius > 0 ? ", bore radius " + millimetres(curve.bore_radius) : "";
   return " of a pipe, radius " + millimetres(curve.pipe_radius) + bore;
 }
@@ -202,6 +204,13 @@ Json to_json(const ImportReport& report) {
                       {"deviation [m]", row.deviation},
                       {"nurbs", nurbs_of(report.curves[i].curve)}});
     if (!report.curves[i].is_centre_line()) continue;
+    if (const BarSection& bar = report.curves[i].bar; bar.area > 0) {
+      curves.back()["width [m]"] = bar.width;
+      curves.back()["height [m]"] = bar.height;
+      curves.back()["area [m^2]"] = bar.area;
+      curves.back()["second_moments [m^4]"] = {bar.second_moments.x(), bar.second_moments.y()};
+      continue;
+    }
     curves.back()["pipe_radius [m]"] = report.curves[i].pipe_radius;
     curves.back()["bore_radius [m]"] = report.curves[i].bore_radius;
   }

@@ -38,18 +38,21 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return list;
 }
 
-std::string known_names(std::string_view unknown, const std::vector<std::string>& all) {
-  std::vector<std::string> known = all;
-  std::erase(known, "");  // of what should have a name
-  if (known.empty()) return "; there is none to name here";
+std::string nearest_question(std::string_view unknown, const std::vector<std::string>& known) {
+  if (known.empty()) return {};
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return edit_distance(unknown, a) < edit_distance(unknown, b);
   });
   const int near = std::max(2, static_cast<int>(unknown.size()) / 3);
-  const std::string question = edit_distance(unknown, *nearest) <= near
-                                   ? "; did you mean " + in_quotes(*nearest) + "? Known: "
-                                   : "; known: ";
-  return question + quoted_list(known);
+  return edit_distance(unknown, *nearest) <= near ? "; did you mean " + in_quotes(*nearest) + "?" : "";
+}
+
+std::string known_names(std::string_view unknown, const std::vector<std::string>& all) {
+  std::vector<std::string> known = all;
+  std::erase(known, "");  // of what should have a name
+  if (known.empty()) return "; there is none to name here";
+  const std::string question = nearest_question(unknown, known);
+  return (question.empty() ? "; known: " : question + " Known: ") + quoted_list(known);
 }
 
 }  // namespace nurbeam

@@ -35,11 +35,14 @@ class ReadingProgress {
     name_ = file.string() + (error ? "" : " (" + size_text(size) + ")");
   }
 
-  void update(double seconds, std::size_t memory) {
-    if (seconds < next_) return;
-    next_ = seconds + (on_terminal_ ? 0.5 : 10);
-    err_ << (on_terminal_ ? "\r" : "") << "reading " << name_ << ": " << with_unit(seconds, "s") << ", "
-         << size_text(memory) << (on_terminal_ ? "   " : "\n") << std::flush;
+  void update(const ChildState& state) {
+    if (state.seconds < next_) return;
+    next_ = state.seconds + (on_terminal_ ? 0.5 : 10);
+    const std::string share =
+        state.share > 0 ? std::to_string(static_cast<int>(100 * state.share)) + " %, " : "";
+    err_ << (on_terminal_ ? "\r" : "") << "reading " << name_ << ": " << share
+         << with_unit(state.seconds, "s") << ", " << size_text(state.memory) << (on_terminal_ ? "   " : "\n")
+         << std::flush;
     told_ = true;
   }
 
@@ -63,8 +66,8 @@ class ReadingProgress {
 ImportReport read_with_progress(const std::filesystem::path& file, std::ostream& err) {
   ReadingProgress progress(file, err);
   const auto start = std::chrono::steady_clock::now();
-  ImportReport report = import_curves(
-      file, {.watch = [&](double seconds, std::size_t memory) { progress.update(seconds, memory); }});
+  ImportReport report =
+      import_curves(file, {.watch = [&](const ChildState& state) { progress.update(state); }});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   progress.finish(taken.count(), report.peak_memory);
   return report;

@@ -1,6 +1,7 @@
 #include "pipelines/diagnostics/simulation_text.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "nurbs/number_text.h"
 
@@ -92,7 +93,7 @@ const char* step_hint(StepStatus status) {
 }
 
 // What moves where the tangent is singular.
-std::string free_part_text(const Failure& failure) {
+std::string free_part_text(const Failure& failure, const BeamModel& model) {
   const std::string singular = "the tangent is singular (is the model held everywhere?)";
   if (!failure.loose) return singular;
   const LoosePart& loose = *failure.loose;
@@ -102,8 +103,8 @@ std::string free_part_text(const Failure& failure) {
          (loose.is_body ? "body \"" + loose.name + "\"" : "beam \"" + loose.name + "\"") +
          ": in the motion that is free " +
          (loose.is_body ? "it moves" : "its place at s = " + text_of(loose.s, 6) + " m moves furthest") +
-         " along [" + component(d[0]) + ", " + component(d[1]) + ", " + component(d[2]) +
-         "]; add a support that holds it there, or clamp one that only pins";
+         " along [" + component(d[0]) + ", " + component(d[1]) + ", " + component(d[2]) + "]" +
+         turns_about_text(model) + "; add a support that holds it there, or clamp one that only pins";
 }
 
 std::string failure_text(const Failure& failure, const BeamModel& model) {
@@ -120,6 +121,11 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "at t = " + time + " \"" + model.body_of(model.riders[failure.rider]).name +
              "\" hits stops, or sticks and slides, again and again at one moment" + places +
              "; another \"restitution\" or friction \"coefficient\", or a shorter \"step\", may help";
+    case Failure::Kind::wrap:
+      return "at t = " + time + " the beam turns by " + text_of(failure.wrap * 180 / std::numbers::pi, 4) +
+             " degrees at \"" + model.body_of(model.riders[failure.rider]).name +
+             "\", and the bound of Coulomb's law grows without limit towards 180; above 120 degrees give the "
+             "friction \"law\": \"capstan\", or \"bearing\" for a pulley that turns";
     case Failure::Kind::impact:
       return "the impact of \"" + model.body_of(model.riders[failure.rider]).name +
              "\" at the end is singular";
@@ -144,7 +150,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return meeting_text(failure, model) + places;
     case Failure::Kind::equilibrium:
       return "no static equilibrium was found: " +
-             (failure.loose ? free_part_text(failure) : reason_of(failure.equilibrium.status)) +
+             (failure.loose ? free_part_text(failure, model) : reason_of(failure.equilibrium.status)) +
              "; load factor reached " + text_of(failure.equilibrium.load_factor, 8) +
              (failure.equilibrium.status == StaticStatus::singular_matrix ? "" : slope_hint(model));
     case Failure::Kind::unstable_state:
@@ -154,7 +160,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
       return "the tangent is not symmetric: loads that follow the section and moments in space have no energy, "
              "and without one there are neither natural frequencies nor buckling factors";
     case Failure::Kind::not_held:
-      return free_part_text(failure);
+      return free_part_text(failure, model);
     case Failure::Kind::nothing_buckles:
       return "nothing buckles under the loads: not before they bend the model by its own size";
     case Failure::Kind::eigenvalues:
@@ -184,6 +190,19 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
 }
 
 }  // namespace
+
+std::string turns_about_text(const BeamModel& model) {
+  const Support* only = nullptr;
+  for (const Constraint& constraint : model.constraints) {
+    const auto* support = std::get_if<Support>(&constraint);
+    if (!support || only) return "";
+    only = support;
+  }
+  if (!only)
+    return model.constraints.empty() && model.connectors.empty() ? ", as the model has no support" : "";
+  return ", turning about its only support, at s = " + text_of(only->s, 6) + " m of beam \"" +
+         model.beams[only->beam].name + "\"";
+}
 
 std::string name_of(EventKind kind) {
   switch (kind) {

@@ -185,11 +185,6 @@ void add_stops(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
         stops.between(joints[0], joints[1]);
     }
     const CaseAnalysis& analysis = resolved.analysis;
-    if (analysis.type == CaseAnalysis::Type::dynamic && std::holds_alternative<Ida>(analysis.integrator))
-      findings.error("analysis.integrator.type",
-                     "is \"ida\", but " + stop.path +
-                         " is a stop, whose impacts \"ida\" has no memory for; use "
-                         "\"generalized-alpha\" or \"radau\"");
     check_modes(stop, analysis, findings);
   }
   check_room(model, findings);

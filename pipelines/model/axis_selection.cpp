@@ -235,9 +235,15 @@ AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indi
     found = {index};
   } else {
     found = those(report, candidates, [&](const ImportedCurve& c) { return c.name == *axis.curve_name; });
-    if (found.empty())
+    if (found.empty()) {
+      std::vector<std::string> names;
+      for (const int i : candidates)
+        if (!report.curves[i].name.empty()) names.push_back(report.curves[i].name);
+      const std::string question = nearest_question(*axis.curve_name, names);
       return failure("curve", "no curve is named " + in_quotes(*axis.curve_name) + " in " + report.file +
-                                  "; its curves (index and name): " + list_of_curves(report, candidates));
+                                  (question.empty() ? "; its" : question + " Its") +
+                                  " curves (index and name): " + list_of_curves(report, candidates));
+    }
   }
   if (found.size() == 1)
     return {{axis.chain ? smooth_chain_around(report, candidates, found[0], tolerance)

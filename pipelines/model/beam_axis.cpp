@@ -51,30 +51,6 @@ BeamAxis axis_from_file(const CaseBeam& beam, const AxisFile& axis, const Chain&
           .source = AxisSource{axis.path, chain.curves, curves[first], chain.reversed.front()}};
 }
 
-// As it is drawn. Throws std::invalid_argument where a curve cannot be an axis.
-BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings) {
-  return std::visit(
-      [&](const auto& source) -> BeamAxis {
-        using Source = std::decay_t<decltype(source)>;
-        if constexpr (std::is_same_v<Source, AxisFile>)
-          return axis_from_file(beam, source, chain, files, findings);
-        if constexpr (std::is_same_v<Source, NurbsCurve>)
-          return {
-              beam.name,
-              cubics_of(beam, BezierPath::from_nurbs(source, approximation_tolerance(beam, length(source))),
-                        source.degree() > 3, findings)};
-        if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
-          return {beam.name, arc_cubics(source.center, source.start, source.end, source.normal)};
-        if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {
-          std::vector<RationalCubic> cubics;
-          for (std::size_t i = 0; i + 1 < source.size(); ++i)
-            cubics.push_back(line_cubic(source[i], source[i + 1]));
-          return {beam.name, std::move(cubics)};
-        }
-      },
-      beam.axis.source);
-}
-
 // The axis has an extent, and coordinates that arithmetic can bear.
 void check_extent(const CaseBeam& beam, const std::vector<RationalCubic>& segments, Findings& findings) {
   double largest = 0, extent = 0;
@@ -219,38 +195,88 @@ std::string rounding(const Corner& corner) {
          std::to_string(degrees);
 }
 
-// The breaks that stay corners; an error for every one that cannot.
+std::string degrees_of(double angle) { return text_of(angle * 180 / std::numbers::pi); }
+
+// The corners of an axis in words: one with its place; of several their number, angles, and the first place.
+std::string named(const std::vector<Corner>& corners) {
+  const Corner& first = corners.front();
+  if (corners.size() == 1)
+    return "the axis has a corner of " + degrees_of(first.angle) + " degrees at " + text_of(first.point) +
+           "; ";
+  const auto [least, most] = std::ranges::minmax_element(corners, {}, &Corner::angle);
+  constexpr int digits = 4;
+  const auto rough = [](double angle) { return text_of(angle * 180 / std::numbers::pi, digits); };
+  return "the axis has " + std::to_string(corners.size()) + " corners, of " + rough(least->angle) + " to " +
+         rough(most->angle) + " degrees, the first at " + text_of(first.point) + "; ";
+}
+
+// The smooth curve that was meant by points with a corner at each.
+std::string smooth_curve(const CaseBeam& beam, std::size_t corners) {
+  const auto* polyline = std::get_if<CaseAxis::Polyline>(&beam.axis.source);
+  constexpr std::size_t few = 2;
+  if (!polyline || corners <= few) return "";
+  return "give the points as \"through\" in place of \"polyline\", which lays a smooth curve through them "
+         "(in Python Curve.through), ";
+}
+
+// The breaks that stay corners; an error for those that cannot.
 std::vector<int> kept_corners(const CaseBeam& beam, const std::vector<RationalCubic>& segments, bool slides,
                               Findings& findings) {
+  const std::vector<Corner> found = corners_of(segments, default_corner_angle);
   std::vector<int> corners;
-  for (const Corner& corner : corners_of(segments, default_corner_angle)) {
-    corners.push_back(corner.after_segment + 1);
-    const std::string place = "the axis has a corner of " + text_of(corner.angle * 180 / std::numbers::pi) +
-                              " degrees at " + text_of(corner.point) + "; ";
-    const bool is_rigid = beam.corners == Corners::rigid;
-    if (is_rigid || beam.corners == Corners::hinge) {
-      if (slides)
-        findings.error(beam.path + ".corners",
-                       place + "a body cannot slide over a " + (is_rigid ? "rigid corner" : "hinge") + ": " +
-                           rounding(corner) +
-                           ", or divide the beam there and join the parts with \"joints\"");
-      continue;
-    }
-    findings.error(
-        beam.path + (beam.corners == Corners::smooth ? ".corners" : ".axis"),
-        place +
-            (beam.smooth_angle > 0 ? "those of up to " + text_of(beam.smooth_angle * 180 / std::numbers::pi) +
-                                         " degrees are smoothed (\"smooth_up_to\"): "
-                                   : "a beam needs a smooth axis: ") +
-            rounding(corner) +
-            (beam.ring || beam.rigid
-                 ? ""
-                 : ", or keep it with \"corners\": \"rigid\" (its angle stays) or \"hinge\""));
+  for (const Corner& corner : found) corners.push_back(corner.after_segment + 1);
+  const bool is_rigid = beam.corners == Corners::rigid, keeps = is_rigid || beam.corners == Corners::hinge;
+  if (found.empty() || (keeps && !slides)) return corners;
+  const Corner& greatest = *std::ranges::max_element(found, {}, &Corner::angle);
+  if (keeps) {
+    findings.error(beam.path + ".corners",
+                   named(found) + "a body cannot slide over a " + (is_rigid ? "rigid corner" : "hinge") +
+                       ": " + smooth_curve(beam, found.size()) + rounding(greatest) +
+                       ", or divide the beam there and join the parts with \"joints\"");
+    return corners;
   }
+  findings.error(beam.path + (beam.corners == Corners::smooth ? ".corners" : ".axis"),
+                 named(found) +
+                     (beam.smooth_angle > 0 ? "those of up to " + degrees_of(beam.smooth_angle) +
+                                                  " degrees are smoothed (\"smooth_up_to\"): "
+                                            : "a beam needs a smooth axis: ") +
+                     smooth_curve(beam, found.size()) + rounding(greatest) +
+                     (beam.ring || beam.rigid
+                          ? ""
+                          : ", or keep it with \"corners\": \"rigid\" (its angle stays) or \"hinge\""));
   return corners;
 }
 
+// Whether eyelets may lead the beam round corners of its drawing: its material has none.
+bool bends_round_eyelets(const CaseBeam& beam) {
+  return beam.stress_free == StressFree::straight && beam.corners == Corners::error && !beam.ring &&
+         beam.smooth_angle == 0;
+}
+
 }  // namespace
+
+BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings) {
+  return std::visit(
+      [&](const auto& source) -> BeamAxis {
+        using Source = std::decay_t<decltype(source)>;
+        if constexpr (std::is_same_v<Source, AxisFile>)
+          return axis_from_file(beam, source, chain, files, findings);
+        if constexpr (std::is_same_v<Source, NurbsCurve>)
+          return {
+              beam.name,
+              cubics_of(beam, BezierPath::from_nurbs(source, approximation_tolerance(beam, length(source))),
+                        source.degree() > 3, findings)};
+        if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
+          return {beam.name, arc_cubics(source.center, source.start, source.end, source.normal)};
+        if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {
+          std::vector<RationalCubic> cubics;
+          for (std::size_t i = 0; i + 1 < source.size(); ++i)
+            cubics.push_back(line_cubic(source[i], source[i + 1]));
+          return {beam.name, std::move(cubics)};
+        }
+      },
+      beam.axis.source);
+}
 
 double approximation_tolerance(const CaseBeam& beam, double length) {
   constexpr double most = 1e-6;
@@ -264,7 +290,7 @@ double approximation_tolerance(const CaseBeam& beam, const std::vector<NurbsCurv
   return approximation_tolerance(beam, sum);
 }
 
-BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies, CadFiles& files,
+BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, const Sliders& sliders, CadFiles& files,
                    Findings& findings) {
   BeamAxis axis;
   try {
@@ -282,7 +308,11 @@ BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies,
     close_ring(beam, axis.segments, findings);
   }
   if (!findings.has_errors() && !beam.ring) mention_closed_axis(beam, axis.segments, findings);
-  if (!findings.has_errors()) axis.corners = kept_corners(beam, axis.segments, sliding_bodies > 0, findings);
+  if (findings.has_errors()) return axis;
+  if (sliders.eyelets && bends_round_eyelets(beam))
+    axis.led_corners = corners_of(axis.segments, default_corner_angle);
+  else
+    axis.corners = kept_corners(beam, axis.segments, sliders.bodies > 0, findings);
   return axis;
 }
 

@@ -27,6 +27,9 @@ struct BeamAxis {
   std::string curve_name;               ///< in its file, or else the beam's name
   std::vector<RationalCubic> segments;  ///< smooth where they meet, but for the corners [m]
   std::vector<int> corners = {};        ///< the breaks between segments that stay corners, ascending
+  /// The breaks at which a beam that is straight when it is free is drawn with a corner; an eyelet leads it
+  /// round each of them (add_eyelets).
+  std::vector<Corner> led_corners = {};
   std::optional<AxisSource> source = {};
 };
 
@@ -37,10 +40,20 @@ double approximation_tolerance(const CaseBeam& beam, double length);
 double approximation_tolerance(const CaseBeam& beam, const std::vector<NurbsCurve>& curves,
                                const Chain& chain);
 
+/// The axis of a beam as it is drawn, in the coordinates of the case. Throws std::invalid_argument where a
+/// curve cannot be an axis.
+BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings);
+
+/// What slides on a beam.
+struct Sliders {
+  int bodies = 0;  ///< eyelets besides
+  bool eyelets = false;
+};
+
 /// The axis that the case describes, of a beam whose curves are the chain (empty for an axis that is in no
-/// file) and on which so many bodies slide: its corners smoothed, its ends closed where it is a ring. With
+/// file) and on which these slide: its corners smoothed, its ends closed where it is a ring. With
 /// errors among the findings the result cannot be used.
-BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, int sliding_bodies, CadFiles& files,
+BeamAxis beam_axis(const CaseBeam& beam, const Chain& chain, const Sliders& sliders, CadFiles& files,
                    Findings& findings);
 
 }  // namespace nurbeam

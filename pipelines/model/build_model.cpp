@@ -10,6 +10,7 @@
 #include "fem/model/build.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/findings.h"
+#include "pipelines/diagnostics/joined_warnings.h"
 #include "pipelines/model/add_stops.h"
 #include "pipelines/model/asked_torsion.h"
 #include "pipelines/model/beam_axis.h"
@@ -18,6 +19,7 @@
 #include "pipelines/model/check_drawing.h"
 #include "pipelines/model/check_freedom.h"
 #include "pipelines/model/check_guides.h"
+#include "pipelines/model/check_sizes.h"
 #include "pipelines/model/connectors.h"
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
@@ -26,6 +28,8 @@
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/law_points.h"
 #include "pipelines/model/loads.h"
+#include "pipelines/model/measures.h"
+#include "pipelines/model/pipe_bends.h"
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
 #include "pipelines/model/supports.h"
@@ -40,7 +44,10 @@ std::vector<BeamAxis> axes_of(const ResolvedCase& resolved, CadFiles& files, Fin
   std::vector<BeamAxis> axes;
   for (std::size_t b = 0; b < resolved.beams.size() && !findings.has_errors(); ++b) {
     const CaseBeam& beam = resolved.beams[b];
-    axes.push_back(beam_axis(beam, resolved.chains[b], resolved.sliding_bodies(beam.name), files, findings));
+    const Sliders sliders{
+        resolved.sliding_bodies(beam.name),
+        std::ranges::any_of(resolved.eyelets, [&](const CaseEyelet& e) { return e.beam == beam.name; })};
+    axes.push_back(beam_axis(beam, resolved.chains[b], sliders, files, findings));
   }
   return axes;
 }
@@ -132,9 +139,25 @@ void check_without_metric(const CaseBeam& beam, const std::vector<CaseSlidingJoi
                                                 joint.body + "\" slides on this beam; use \"reference\"");
 }
 
+// Whether the axis turns right back at one of its corners, over which no section can be carried; said there.
+bool turns_back(const CaseBeam& from, const ReferenceCurve& curve, const ModelFrame& frame,
+                Findings& findings) {
+  for (std::size_t i = 1; i + 1 < curve.breaks().size(); ++i) {
+    const double s = curve.breaks()[i];
+    if (curve.tangent(s, true).normalized().dot(curve.tangent(s).normalized()) >= -1 + 1e-9) continue;
+    findings.error(from.path + ".axis",
+                   "turns right back on itself at " + text_of(frame.to_world(curve.position(s))) +
+                       ": no section can be carried over that; take one of the curves that meet there "
+                       "(\"curve\"), or round the turn");
+    return true;
+  }
+  return false;
+}
+
 // The curve with the sections of the beam, where it has torsion.
-ReferenceCurve oriented(const CaseBeam& from, ReferenceCurve curve, Findings& findings) {
-  if (!from.torsion) return curve;
+ReferenceCurve oriented(const CaseBeam& from, ReferenceCurve curve, const ModelFrame& frame,
+                        Findings& findings) {
+  if (!from.torsion || turns_back(from, curve, frame, findings)) return curve;
   try {
     return curve.oriented(from.orientation);
   } catch (const std::invalid_argument& problem) {
@@ -164,19 +187,33 @@ void add_temperature(const CaseBeam& from, BeamProperties& properties) {
                                                 stretch_squared * *from.material.thermal_expansion * kelvin);
 }
 
+// Whether a ring runs along itself so fast that its tension bends it: S = rho A v^2 holds any shape.
+bool runs_in_its_shape(const CaseBeam& from, const ReferenceCurve& drawn, const BeamProperties& properties) {
+  constexpr double near = 0.01;
+  if (!drawn.closed() || !from.velocity) return false;
+  const CaseVelocity& v = *from.velocity;
+  const double needed = properties.mass_per_length * v.along * v.along;
+  return v.translation.isZero(0) && v.rotation.isZero(0) && std::abs(from.tension - needed) <= near * needed;
+}
+
 // A thrust needs a beam that bends, and a curved axis under tension is in no equilibrium as drawn.
 void add_tension(const ResolvedCase& resolved, const CaseBeam& from, const ReferenceCurve& drawn,
                  BeamProperties& properties, Findings& findings) {
   if (from.tension == 0) return;
-  properties.free_strain.of_tension = -from.tension / properties.axial_stiffness;
   const std::string path = from.path + ".tension";
+  try {
+    properties.set_drawn_tension(from.tension);
+  } catch (const std::invalid_argument& problem) {
+    findings.error(path, problem.what());
+  }
   if (from.tension < 0 && properties.bending_stiffness == 0)
     findings.error(path,
                    "is " + text_of(from.tension) +
                        " N of a beam without bending stiffness, which no thrust can be in; give a positive "
                        "\"tension\", or the section a second moment");
   const CaseAnalysis& analysis = resolved.analysis;
-  if (is_curved(drawn) && analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
+  if (is_curved(drawn) && !runs_in_its_shape(from, drawn, properties) &&
+      analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
     findings.warn(path,
                   "is " + text_of(from.tension) +
                       " N in an axis that is drawn curved, which is no equilibrium: the motion starts with a "
@@ -228,6 +265,8 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
                           .stiffness_damping = from.material.stiffness_damping};
   BeamProperties properties(sizes, material, from.curvature);
   properties.axial_strain = from.axial_strain;
+  properties.law = from.material.law.value_or(GreenLaw());
+  properties.compression = from.material.compression;
   std::optional<SectionStresses> stresses;
   if (from.torsion) {
     if (const auto section_of_beam = torsion_section(from, curve.length(), drawn, findings)) {
@@ -242,7 +281,7 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   check_thrust(resolved, from, curve, properties, findings);
   const ReferenceCurve stress_free = is_straight(from, curve, findings) ? curve.straightened() : curve;
   return {.name = from.name,
-          .curve = oriented(from, stress_free, findings),
+          .curve = oriented(from, stress_free, frame, findings),
           .properties = properties,
           .section = sizes,
           .material = material,
@@ -308,7 +347,9 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     if (!section) break;
     const bool uneven = !from.torsion && section->profile && section->section.second_moments;
     from.torsion = from.torsion || uneven;
-    built.model.beams.push_back(beam_of(resolved, from, drawn->curve, *section, built.frame, findings));
+    Beam beam = beam_of(resolved, from, drawn->curve, *section, built.frame, findings);
+    beam.bends = pipe_bends(from, beam, built.frame, findings);
+    built.model.beams.push_back(std::move(beam));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     if (built.frame.dimension == 3)
       built.sources.back().torsion =
@@ -323,14 +364,17 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
   return beams;
 }
 
-// Adds supports and elements.
-void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
-                  const JoinedBeams& joined, BuiltModel& built, Findings& findings) {
+// Adds supports and elements. Per beam the places that need a node, in reference arc length [m].
+std::vector<std::vector<double>> divide_beams(const ResolvedCase& resolved,
+                                              const std::vector<DrawnBeam>& beams, const JoinedBeams& joined,
+                                              BuiltModel& built, Findings& findings) {
+  std::vector<std::vector<double>> places(beams.size());
   for (std::size_t b = 0; b < beams.size() && !findings.has_errors(); ++b) {
     const CaseBeam& from = resolved.beams[b];
     if (from.rigid) continue;
-    std::vector<double> held = add_supports(resolved, static_cast<int>(b), beams[b], built.frame, built.model,
-                                            built.motions, findings);
+    std::vector<double>& held = places[b];
+    held = add_supports(resolved, static_cast<int>(b), beams[b], built.frame, built.model, built.motions,
+                        findings);
     held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
     const double same = same_place * beams[b].measured.length();
     for (const double s : connector_places(resolved, static_cast<int>(b), beams[b], findings))
@@ -339,6 +383,7 @@ void divide_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
     built.model.beams[b].home =
         divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), built.frame, findings);
   }
+  return places;
 }
 
 // The elements of beams that name a tolerance instead of a number; nothing where there are none.
@@ -400,10 +445,13 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
 
   check_drawn_sections(case_file.output, resolved.beams, findings);
-  if (!like) check_proportions(resolved.beams, built.model, built.sources, findings);
+  if (!like) {
+    check_softness(resolved.beams, built.model, findings);
+    check_sizes(resolved, built.model, built.frame, built.sources, findings);
+  }
   if (findings.has_errors()) return {};
   const JoinedBeams joined = join_beams(resolved, beams, built.frame, findings);
-  divide_beams(resolved, beams, joined, built, findings);
+  const std::vector<std::vector<double>> held = divide_beams(resolved, beams, joined, built, findings);
   if (findings.has_errors()) return {};
   check_joined_supports(resolved, beams, joined, findings);
   if (findings.has_errors()) return {};
@@ -416,8 +464,13 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
-  built.adapted = adapt_elements(resolved, built.model, interrupted, findings);
+  built.slopes = decide_slopes(resolved, beams, held, joined, built.frame, interrupted,
+                               like ? &like->slopes : nullptr, built.model, findings);
   if (findings.has_errors()) return {};
+  do {
+    built.adapted = adapt_elements(resolved, built.model, interrupted, findings);
+    if (findings.has_errors()) return {};
+  } while (built.adapted && smooth_fine_kinks(built.model, built.slopes));
   check_freedom(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);
@@ -429,8 +482,9 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   for (const CaseProbe& probe : resolved.probes) {
     const int b = resolved.beam_index(probe.beam);
     const double s = place_on(beams[b], probe.at, probe.path, findings);
-    built.probes.push_back({probe.name, b, beams[b].material_coordinate(s)});
+    built.probes.push_back({probe.name, b, beams[b].material_coordinate(s), probe.side});
   }
+  add_measures(resolved, beams, built.frame, files, built.model, findings);
   for (const CaseLaw& law : resolved.laws) built.laws.push_back(law_points(law, resolved, beams, findings));
   built.inputs = files.inputs();
   built.import_seconds = files.seconds();
@@ -445,7 +499,7 @@ BuildReport build_model(const CaseFile& case_file, const std::function<bool()>& 
   Findings findings(case_file.path.string());
   BuildReport report;
   report.value = built_model(case_file, interrupted, like, findings);
-  report.diagnostics = findings.take();
+  report.diagnostics = joined_warnings(findings.take());
   return report;
 }
 

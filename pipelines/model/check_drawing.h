@@ -29,9 +29,7 @@ void check_drawn_sections(const CaseOutput& output, const std::vector<CaseBeam>&
 void check_source(const CaseOutput& output, const std::vector<CaseBeam>& beams, CadFiles& files,
                   Findings& findings);
 
-/// Warns of beams that no theory of beams is for: shorter than twice their sections are thick, or so soft
-/// that their own weight strains them by a tenth. A wrong unit of a number makes such.
-void check_proportions(const std::vector<CaseBeam>& beams, const BeamModel& model,
-                       const std::vector<BeamSource>& sources, Findings& findings);
+/// Warns of beams that their own weight strains by a tenth, as a modulus in a wrong unit makes them.
+void check_softness(const std::vector<CaseBeam>& beams, const BeamModel& model, Findings& findings);
 
 }  // namespace nurbeam

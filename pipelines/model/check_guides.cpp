@@ -21,7 +21,7 @@ void check_guides(const ResolvedCase& resolved, Findings& findings) {
     for (const std::string& beam : joint.beams)
       refuse(beam, joint.path + ".beams", "a beam that it is to hold there takes a support instead");
   for (const CaseSlidingJoint& joint : resolved.sliding_joints) {
-    if (!joint.continuous_slope)
+    if (joint.slope == SlopeRule::discontinuous)
       refuse(joint.beam, joint.path + ".slope", "it has no kink at a body; use \"continuous\"");
     if (joint.follows_section)
       refuse(joint.beam, joint.path + ".follows_section", "it has no sections; leave this out");

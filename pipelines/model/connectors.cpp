@@ -96,6 +96,7 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
                                  end_of(from.ends[1], resolved, beams, model, frame, findings)},
                         .type = from.type,
                         .stiffness = from.stiffness,
+                        .rows = from.rows,
                         .damping = from.damping,
                         .length_rule = from.length_rule,
                         .force = from.force};
@@ -117,18 +118,12 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
               (analysis.has_modes() ? "\"about\"" : "\"initial\"") + ": \"equilibrium\"");
     if (connector.length_rule == ConnectorLength::force && starts_drawn) {
       connector.length_rule = ConnectorLength::given;
-      connector.length = drawn - from.force / from.stiffness;
+      connector.length = drawn - connector.stretch_under(from.force);
     }
     if (connector.length_rule == ConnectorLength::as_drawn && is_held(connector.ends[0], model))
       findings.error(from.path + ".length",
                      "is \"as-drawn\", but a support holds its first end where it is drawn anyway; exchange "
                      "\"from\" and \"to\", or leave \"length\" out");
-    if (connector.jumps() && analysis.type == CaseAnalysis::Type::dynamic &&
-        std::holds_alternative<Ida>(analysis.integrator))
-      findings.error("analysis.integrator.type",
-                     "is \"ida\", but " + from.path +
-                         " carries one sign with a damper, and \"ida\" has no memory for when it is taut; "
-                         "leave \"damping\" out, or use \"generalized-alpha\" or \"radau\"");
     for (const int end : {0, 1}) add_mass(from.end_masses[end], connector.ends[end], model);
     model.connectors.push_back(std::move(connector));
   }

@@ -54,8 +54,9 @@ std::optional<DrawnBeam> drawn_beam(const CaseBeam& beam, const BeamAxis& axis, 
     const ReferenceCurve measured(local, frame.dimension, Metric::arc_length, beam.ring, like);
     check_lengths(beam, measured, findings);
     if (findings.has_errors()) return {};
-    return DrawnBeam{beam.name, axis.segments, axis.corners, measured,
-                     ReferenceCurve(local, frame.dimension, beam.metric, beam.ring, &measured)};
+    return DrawnBeam{beam.name,    axis.segments,
+                     axis.corners, axis.led_corners,
+                     measured,     ReferenceCurve(local, frame.dimension, beam.metric, beam.ring, &measured)};
   } catch (const std::invalid_argument& problem) {
     findings.error(beam.path + ".axis", reason_in_drawing(axis.segments, problem.what()));
     return {};

@@ -23,6 +23,7 @@ struct DrawnBeam {
   std::string name;
   std::vector<RationalCubic> axis;  ///< as the case has it
   std::vector<int> corners;         ///< the breaks that stay corners
+  std::vector<Corner> led_corners;  ///< those of BeamAxis
   ReferenceCurve measured;          ///< in reference arc length, which the case's places are given in
   ReferenceCurve curve;             ///< the model's: the same, but for a beam without a metric
 

@@ -1,8 +1,12 @@
 #include "pipelines/model/eyelets.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <string>
 
+#include "fem/motion/events/friction_modes.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -36,14 +40,64 @@ void check_place(const CaseEyelet& eyelet, double away, const CaseAnalysis& anal
                        "leave the \"position\" out");
 }
 
+// A stick is as stiff as an element: what has no mass has no frequency to give it.
+std::optional<Friction> friction_of(const CaseEyelet& eyelet, const CaseAnalysis& analysis,
+                                    const Beam& beam) {
+  if (!eyelet.friction || analysis.has_modes()) return {};
+  Friction friction = *eyelet.friction;
+  if (!friction.stick_stiffness)
+    friction.stick_stiffness = beam.properties.axial_stiffness * beam.home_intervals() / beam.curve.length();
+  return friction;
+}
+
+// Puts an eyelet near a corner of the drawing exactly there.
+void stand_at_corner(const DrawnBeam& beam, Rider& rider) {
+  constexpr double near = 1e-6;  // part of the length
+  for (const Corner& corner : beam.led_corners) {
+    const double s = beam.curve.breaks()[corner.after_segment + 1];
+    if (std::abs(rider.s - s) <= near * beam.curve.length()) rider.s = s;
+  }
+}
+
+// Where the drawing has the wrap, no run is needed to see that it is too large.
+void check_wrap(const CaseEyelet& eyelet, const DrawnBeam& beam, const Rider& rider, Findings& findings) {
+  if (!rider.friction || rider.friction->law != Friction::Law::coulomb ||
+      rider.friction->sticking_coefficient() == 0)
+    return;
+  for (const Corner& corner : beam.led_corners)
+    if (rider.s == beam.curve.breaks()[corner.after_segment + 1] && corner.angle > most_wrap_of_coulomb)
+      findings.error(eyelet.path + ".friction.law",
+                     "is \"coulomb\", but beam " + in_quotes(eyelet.beam) + " is drawn with a corner of " +
+                         text_of(corner.angle * 180 / std::numbers::pi, 4) +
+                         " degrees there, and the bound of Coulomb's law grows without limit towards 180; "
+                         "above 120 degrees use \"capstan\", or \"bearing\" for a pulley that turns");
+}
+
+// Every corner of a beam that eyelets lead has one.
+void check_corners(const CaseBeam& from, int b, const DrawnBeam& beam, const BeamModel& model,
+                   Findings& findings) {
+  for (const Corner& corner : beam.led_corners) {
+    const double s = beam.curve.breaks()[corner.after_segment + 1];
+    const bool is_led = std::ranges::any_of(model.riders, [&](const Rider& rider) {
+      return rider.beam == b && rider.s == s && model.body_of(rider).mass == 0;
+    });
+    if (!is_led)
+      findings.error(from.path + ".axis", "the axis has a corner of " +
+                                              text_of(corner.angle * 180 / std::numbers::pi) +
+                                              " degrees at " + text_of(corner.point) +
+                                              ", and no eyelet leads the beam round it: put one there, or "
+                                              "round the corner");
+  }
+}
+
 }  // namespace
 
 void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
                  BeamModel& model, Findings& findings) {
   const CaseAnalysis& analysis = resolved.analysis;
-  if (!resolved.eyelets.empty() &&
-      (analysis.is_explicit() || std::holds_alternative<Ida>(analysis.integrator)))
-    findings.error("analysis.integrator.type", "is not for eyelets; use \"generalized-alpha\" or \"radau\"");
+  if (!resolved.eyelets.empty() && analysis.is_explicit())
+    findings.error("analysis.integrator.type",
+                   "is \"rk4\", which is not for eyelets; use \"generalized-alpha\" or \"radau\"");
   for (const CaseEyelet& eyelet : resolved.eyelets) {
     const int b = resolved.beam_index(eyelet.beam);
     if (model.beams[b].rigid) {
@@ -52,13 +106,16 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
                          ", a rigid guide, which runs through nothing; name an elastic beam");
       continue;
     }
-    const Rider rider{.body = static_cast<int>(model.bodies.size()),
-                      .beam = b,
-                      .s = place_on(beams[b], eyelet.at, eyelet.path, findings),
-                      .motion = {},
-                      .continuous_slope = eyelet.continuous_slope,
-                      .leave_at_end = eyelet.leave_at_end,
-                      .rest = eyelet.rest};
+    Rider rider{.body = static_cast<int>(model.bodies.size()),
+                .beam = b,
+                .s = place_on(beams[b], eyelet.at, eyelet.path, findings),
+                .motion = {},
+                .continuous_slope = eyelet.continuous_slope,
+                .leave_at_end = eyelet.leave_at_end,
+                .rest = eyelet.rest,
+                .friction = friction_of(eyelet, analysis, model.beams[b])};
+    stand_at_corner(beams[b], rider);
+    check_wrap(eyelet, beams[b], rider, findings);
     const Eigen::Vector3d drawn = model.beams[b].curve.position(rider.s);
     const Eigen::Vector3d position = eyelet.position ? frame.to_local(*eyelet.position) : drawn;
     check_place(eyelet, (position - drawn).norm(), analysis, model.beams[b].curve.length(), findings);
@@ -67,6 +124,8 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
     model.constraints.push_back(HeldBody{rider.body, position});
     model.riders.push_back(rider);
   }
+  for (std::size_t b = 0; b < beams.size(); ++b)
+    check_corners(resolved.beams[b], static_cast<int>(b), beams[b], model, findings);
 }
 
 }  // namespace nurbeam

@@ -169,13 +169,16 @@ JoinedBeams join_beams(const ResolvedCase& resolved, const std::vector<DrawnBeam
                        const ModelFrame& frame, Findings& findings) {
   JoinedBeams joined;
   joined.places.resize(beams.size());
-  for (const CaseBeamJoint& joint : resolved.joints)
+  for (std::size_t j = 0; j < resolved.joints.size(); ++j) {
+    const CaseBeamJoint& joint = resolved.joints[j];
     for (std::size_t i = 1; i < joint.beams.size(); ++i)
       join_two(resolved, joint, resolved.beam_index(joint.beams[0]), resolved.beam_index(joint.beams[i]),
                beams, frame, joined, findings);
+    joined.sources.resize(joined.joints.size(), j);
+  }
   if (!resolved.joints.empty() && resolved.analysis.is_explicit())
     findings.error("analysis.integrator.type",
-                   "\"rk4\" is for models without joints; use \"generalized-alpha\" or \"ida\"");
+                   "\"rk4\" is for models without joints; use \"generalized-alpha\" or \"radau\"");
   return joined;
 }
 

@@ -14,6 +14,7 @@ namespace nurbeam {
 /// What the joints between beams are in a model.
 struct JoinedBeams {
   std::vector<BeamJoint> joints;
+  std::vector<std::size_t> sources;              ///< per joint: which of the case's it is
   std::vector<std::vector<double>> places;       ///< per beam: where others are joined to it [m]
   std::map<std::pair<int, double>, int> groups;  ///< of places, by beam and s, that are held together
 };

@@ -28,6 +28,7 @@ void put_into_world(const ModelFrame& f, ElementRecord& e) {
     const double w = e.control_points(3, i);
     const Eigen::Vector3d p = f.to_world(e.control_points.col(i).head<3>() / w);
     e.control_points.col(i).head<3>() = w * p;
+    e.drawn_points.col(i) = f.to_world(e.drawn_points.col(i));
     e.velocity.col(i) = f.direction_to_world(e.velocity.col(i));
     e.d1.col(i) = f.direction_to_world(e.d1.col(i));
     e.d2.col(i) = f.direction_to_world(e.d2.col(i));
@@ -79,6 +80,7 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
         std::visit([&](const auto& of) { return distinct(of.reaction_name(built.model), names.reactions); },
                    constraint));
   for (const Connector& connector : built.model.connectors) names.connectors.push_back(connector.name);
+  for (const Measure& measure : built.model.measures) names.measures.push_back(name_of(measure));
   return names;
 }
 

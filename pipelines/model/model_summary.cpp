@@ -12,6 +12,12 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
+Json to_json(const TimeTable& table) {
+  Json rows = Json::array();
+  for (const auto& [time, value] : table) rows.push_back({time, value});
+  return rows;
+}
+
 Json to_json(const SectionOutline& outline) {
   constexpr double digits = 1e6;  // of its size
   double size = 0;
@@ -39,7 +45,10 @@ std::string name_of(WeightRule rule) {
   return {};
 }
 
-double drawn_tension(const BeamProperties& p) { return 0 - p.free_strain.of_tension * p.axial_stiffness; }
+Json law_of(const BeamProperties& p) {
+  if (const auto* table = std::get_if<ForceOverStretch>(&p.law)) return to_json(table->rows().rows());
+  return std::holds_alternative<HookeLaw>(p.law) ? "hooke" : "green";
+}
 
 // Where it carries no axial force; null of what is tighter than any strain of it says.
 Json unstressed_length(const Beam& beam) {
@@ -63,11 +72,12 @@ Json to_json(const Beam& beam, const BeamSource& source) {
                {"stress-free", beam.curve.straight() ? "straight" : "as drawn"},
                {"rigid", beam.rigid},
                {"bending as drawn [J]", source.drawn_bending},
-               {"EA [N]", p.axial_stiffness * stretch * stretch * stretch},
+               {"EA [N]", p.free_axial_stiffness()},
                {"EI [N m^2]", p.bending_stiffness * stretch},
+               {"axial law", beam.rigid ? Json() : law_of(p)},
                {"damping [s]", p.damping},
                {"mass damping [1/s]", p.mass_damping},
-               {"tension as drawn [N]", drawn_tension(p)}};
+               {"tension as drawn [N]", p.drawn_tension()}};
   if (p.sections) {
     json.erase("EI [N m^2]");
     json["torsion"] = source.torsion;
@@ -113,6 +123,22 @@ Json to_json(const Rider& joint, const BeamModel& model) {
           {"at beam end", joint.leave_at_end ? "leaves" : "stops"}};
 }
 
+template <class Number>
+Json or_null(const std::optional<Number>& number) {
+  return number ? Json(*number) : Json();
+}
+
+Json to_json(const SlopeDecision& slope, const BeamModel& model) {
+  return {{"of", slope.path},
+          {"beam", model.beams[slope.beam].name},
+          {"s [m]", slope.s},
+          {"slope", slope.discontinuous ? "discontinuous" : "continuous"},
+          {"why", slope.why},
+          {"tension [N]", or_null(slope.tension)},
+          {"bending reaches [m]", or_null(slope.reach)},
+          {"shorter element [m]", or_null(slope.element)}};
+}
+
 std::string name_of(ConnectorType type) {
   switch (type) {
     case ConnectorType::spring:
@@ -139,17 +165,13 @@ Json to_json(const Connector& connector, const BuiltModel& built) {
                {"from", to_json(connector.ends[0], built)},
                {"to", to_json(connector.ends[1], built)}};
   if (connector.type != ConnectorType::rod)
-    json.update({{"stiffness [N/m]", connector.stiffness}, {"damping [N s/m]", connector.damping}});
+    json.update(
+        {{"stiffness [N/m]", connector.rows ? to_json(connector.rows->rows()) : Json(connector.stiffness)},
+         {"damping [N s/m]", connector.damping}});
   if (connector.length_rule == ConnectorLength::given) json["length [m]"] = connector.length;
   if (connector.length_rule == ConnectorLength::as_drawn) json["length [m]"] = "as drawn";
   if (connector.length_rule == ConnectorLength::force) json["force at the start [N]"] = connector.force;
   return json;
-}
-
-Json to_json(const TimeTable& table) {
-  Json rows = Json::array();
-  for (const auto& [time, value] : table) rows.push_back({time, value});
-  return rows;
 }
 
 Json load_json(const char* kind, int beam, const Eigen::Vector3d& value, const TimeTable& time,
@@ -215,6 +237,7 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
       {"bodies", Json::array()},
       {"supports", Json::array()},
       {"joints", Json::array()},
+      {"slopes", Json::array()},
       {"connectors", Json::array()},
       {"loads", Json::array()}};
   for (std::size_t b = 0; b < model.beams.size(); ++b)
@@ -229,6 +252,7 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
         },
         constraint);
   for (const Rider& joint : model.riders) json["joints"].push_back(to_json(joint, model));
+  for (const SlopeDecision& slope : built.slopes) json["slopes"].push_back(to_json(slope, model));
   for (const Connector& connector : model.connectors) json["connectors"].push_back(to_json(connector, built));
   for (const Force& force : model.forces)
     std::visit(

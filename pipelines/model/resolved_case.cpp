@@ -58,8 +58,49 @@ std::vector<Chain> chosen_chains(const CaseBeam& beam, const AxisFile& axis, Cad
   return selection.chains;
 }
 
-// The section of the pipe whose centre line the chain is.
-CaseSection pipe_section(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings) {
+bool is_same_section(const ImportedCurve& a, const ImportedCurve& b) {
+  const auto same = [](double x, double y) { return std::abs(x - y) <= same_radius * std::max(x, y); };
+  return same(a.pipe_radius, b.pipe_radius) &&
+         std::abs(a.bore_radius - b.bore_radius) <= same_radius * a.pipe_radius &&
+         same(a.bar.area, b.bar.area) && same(a.bar.second_moments.x(), b.bar.second_moments.x());
+}
+
+std::string section_words(const ImportedCurve& curve) {
+  if (const BarSection& bar = curve.bar; bar.area > 0)
+    return "the width " + text_of(bar.width) + " m (height " + text_of(bar.height) + " m)";
+  return "the radius " + text_of(curve.pipe_radius) + " m (bore " + text_of(curve.bore_radius) + " m)";
+}
+
+// Why the curve gives a beam no section; "" if it does.
+std::string section_refusal(const ImportedCurve& curve) {
+  if (!curve.is_centre_line())
+    return " is a " + curve.entity + " and no centre line of a pipe; give \"radius\"";
+  const BarSection& bar = curve.bar;
+  if (std::abs(bar.second_moments.x() - bar.second_moments.y()) <= same_radius * bar.second_moments.x())
+    return "";
+  return " is the centre line of a hollow bar, " + text_of(bar.width) + " by " + text_of(bar.height) +
+         " m, which bends otherwise about its width than about its height; give \"area\", which is " +
+         text_of(bar.area) + " m^2, and \"second_moment\", which is " + text_of(bar.second_moments.x()) +
+         " m^4 about the width and " + text_of(bar.second_moments.y()) +
+         " about the height, or a \"profile\"";
+}
+
+// That of a square tube, which bends in all directions alike, or of a pipe.
+CaseSection section_of(const ImportedCurve& curve, const std::optional<double>& torsion_constant) {
+  if (curve.bar.area > 0)
+    return {.area = curve.bar.area,
+            .second_moment = curve.bar.second_moments.x(),
+            .torsion_constant = torsion_constant};
+  const double outer = curve.pipe_radius, inner = curve.bore_radius;
+  return {.area = std::numbers::pi * (outer * outer - inner * inner),
+          .second_moment = std::numbers::pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
+          .radius = outer,
+          .bore = inner,
+          .torsion_constant = torsion_constant};
+}
+
+// The section of the pipe or hollow bar whose centre line the chain is.
+CaseSection cad_section(const CaseBeam& beam, const Chain& chain, CadFiles& files, Findings& findings) {
   const auto* file = std::get_if<AxisFile>(&beam.axis.source);
   const std::string where = beam.path + ".section.from";
   if (!file) {
@@ -71,24 +112,17 @@ CaseSection pipe_section(const CaseBeam& beam, const Chain& chain, CadFiles& fil
   const ImportedCurve& first = curves[chain.curves.front()];
   for (int i : chain.curves) {
     const ImportedCurve& curve = curves[i];
-    if (!curve.is_centre_line())
-      findings.error(where, "is \"cad\", but curve " + std::to_string(i + 1) + " of " + file->path.string() +
-                                " is a " + curve.entity + " and no centre line of a pipe; give \"radius\"");
-    else if (std::abs(curve.pipe_radius - first.pipe_radius) > same_radius * first.pipe_radius ||
-             std::abs(curve.bore_radius - first.bore_radius) > same_radius * first.pipe_radius)
-      findings.error(where, "the pipe has the radius " + text_of(first.pipe_radius) + " m (bore " +
-                                text_of(first.bore_radius) + " m) at curve " +
-                                std::to_string(chain.curves.front() + 1) + " and " +
-                                text_of(curve.pipe_radius) + " m (bore " + text_of(curve.bore_radius) +
-                                " m) at curve " + std::to_string(i + 1) +
+    if (const std::string refusal = section_refusal(curve); !refusal.empty())
+      findings.error(
+          where, "is \"cad\", but curve " + std::to_string(i + 1) + " of " + file->path.string() + refusal);
+    else if (!is_same_section(first, curve))
+      findings.error(where, std::string("the ") + (first.bar.area > 0 ? "bar" : "pipe") + " has " +
+                                section_words(first) + " at curve " +
+                                std::to_string(chain.curves.front() + 1) + " and " + section_words(curve) +
+                                " at curve " + std::to_string(i + 1) +
                                 "; a beam has one section: give \"radius\", or choose a part with \"curve\"");
   }
-  const double outer = first.pipe_radius, inner = first.bore_radius;
-  return {.area = std::numbers::pi * (outer * outer - inner * inner),
-          .second_moment = std::numbers::pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4)),
-          .radius = outer,
-          .bore = inner,
-          .torsion_constant = beam.section.torsion_constant};
+  return section_of(first, beam.section.torsion_constant);
 }
 
 // What is said of a beam made of a chain must not be said of another one, nor may a connector head a column
@@ -159,6 +193,7 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
     for (const CaseConnectorEnd& end : connector.ends)
       if (!end.beam.empty()) needs_one(end.beam, end.path);
   each_needs_one(resolved.probes);
+  each_needs_one(resolved.clearances);
 }
 
 }  // namespace
@@ -175,6 +210,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .joints = case_file.joints,
                         .connectors = case_file.connectors,
                         .probes = case_file.output.probes,
+                        .clearances = case_file.output.clearances,
                         .laws = case_file.laws,
                         .analysis = case_file.analysis};
   BeamNames names;
@@ -191,7 +227,11 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
         whole[one.name] = beam.name;
       }
       names[one.name] = {one.name};
-      if (one.section.from_cad) one.section = pipe_section(one, chains[i], files, findings);
+      if (one.section.from_cad) {
+        const bool flexible = one.section.flexible_bends;
+        one.section = cad_section(one, chains[i], files, findings);
+        one.section.flexible_bends = flexible;
+      }
       resolved.beams.push_back(std::move(one));
       resolved.chains.push_back(chains[i]);
     }

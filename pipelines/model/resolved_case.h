@@ -26,6 +26,7 @@ struct ResolvedCase {
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseConnector> connectors;
   std::vector<CaseProbe> probes;
+  std::vector<CaseClearance> clearances;
   std::vector<CaseLaw> laws = {};
   CaseAnalysis analysis;
 

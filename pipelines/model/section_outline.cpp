@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "pipelines/model/is_straight.h"
+
 namespace nurbeam {
 namespace {
 
@@ -18,15 +20,6 @@ Polygon circle(double radius, bool clockwise) {
     polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
   return polygon;
-}
-
-bool is_straight(const RationalCubic& cubic) {
-  const Eigen::Vector3d a = cubic.control_point(0), chord = cubic.control_point(3) - a;
-  for (int i = 1; i < 3; ++i) {
-    const Eigen::Vector3d off = cubic.control_point(i) - a;
-    if ((off - off.dot(chord) / chord.squaredNorm() * chord).norm() > 1e-9 * chord.norm()) return false;
-  }
-  return true;
 }
 
 Polygon polygon_of(const Loop& loop) {

@@ -13,9 +13,27 @@ namespace {
 
 constexpr double fastest_motion = 1e9;  // [m/s]
 
+// Speeds that jump are blows on the beam.
+void note_jumps(const CaseSlidingJoint& joint, const RowCurve& motion, Findings& findings) {
+  if (joint.motion_join != RowJoin::linear) return;
+  double largest = 0, at = 0;
+  for (const auto& [time, s] : motion.rows()) {
+    const auto [before, after] = *motion.slopes_at(time);
+    if (time <= 0 || std::abs(after - before) <= largest) continue;
+    largest = std::abs(after - before);
+    at = time;
+  }
+  if (largest > 0)
+    findings.add(Severity::note, joint.path + ".motion.interpolation",
+                 "\"linear\" makes the speed jump at the rows, by up to " + text_of(largest, 4) + " m/s at " +
+                     text_of(at, 6) +
+                     " s: each jump is a blow, and between the rows nothing accelerates the body");
+}
+
 // A prescribed motion begins where the body is, stays on the beam and goes from row to row in some time.
-void check_motion(const CaseSlidingJoint& joint, double s, const ReferenceCurve& curve, Findings& findings) {
-  const double L = curve.length(), start = value_and_slope(joint.motion_table, 0).first;
+void check_motion(const CaseSlidingJoint& joint, const RowCurve& motion, double s,
+                  const ReferenceCurve& curve, Findings& findings) {
+  const double L = curve.length(), start = motion.at(0).value;
   if (std::abs(start - s) > same_place * L)
     findings.error(joint.path + ".motion.table", "is at s = " + text_of(start) +
                                                      " m at time 0, but \"at\" is s = " + text_of(s) +
@@ -46,30 +64,6 @@ TimeTable steady_motion(double s, double speed, const ReferenceCurve& curve, dou
   return {{0, s}, {(end - s) / speed, end}};
 }
 
-void warn_of_held_ends(const CaseSlidingJoint& joint, int b, const ReferenceCurve& curve,
-                       const BeamModel& model, const std::vector<double>& joint_places, Findings& findings) {
-  if (curve.closed()) return;
-  bool start = false, end = false;
-  for (const Constraint& constraint : model.constraints) {
-    const auto* support = std::get_if<Support>(&constraint);
-    if (!support || support->beam != b) continue;
-    start = start || support->s == 0;
-    end = end || support->s == curve.length();
-  }
-  for (const double s : joint_places) {
-    start = start || s == 0;
-    end = end || s == curve.length();
-  }
-  if (start || end)
-    findings.add(Severity::note, joint.path + ".at_beam_end",
-                 std::string("the ") +
-                     (start && end ? "start and the end"
-                      : start      ? "start"
-                                   : "end") +
-                     " of beam \"" + joint.beam + "\" " + (start && end ? "are" : "is") +
-                     " supported: there \"leave\" acts like \"stop\"");
-}
-
 // A discontinuous slope is a hinge that moves with the body. Where bending reaches further along the beam
 // than an element, sqrt(EI/T) > l, the beam resists the kink.
 void warn_of_stiff_hinge(const CaseSlidingJoint& from, const Rider& joint, const BeamModel& model,
@@ -88,7 +82,7 @@ void warn_of_stiff_hinge(const CaseSlidingJoint& from, const Rider& joint, const
 
 // A kink has two sections.
 void check_following(const CaseSlidingJoint& joint, Findings& findings) {
-  if (joint.follows_section && !joint.continuous_slope)
+  if (joint.follows_section && joint.slope == SlopeRule::discontinuous)
     findings.error(joint.path + ".follows_section",
                    "is true, but the slope is \"discontinuous\" where body \"" + joint.body +
                        "\" is, and a kink has a section on either side; use \"continuous\"");
@@ -96,14 +90,9 @@ void check_following(const CaseSlidingJoint& joint, Findings& findings) {
     findings.error(joint.path + ".offset", "needs \"follows_section\": true, which turns it with the beam");
 }
 
-// What sticks has a memory of steps, and small vibrations have no friction.
+// Small vibrations have no friction.
 void check_friction(const CaseSlidingJoint& joint, const CaseAnalysis& analysis, Findings& findings) {
   if (!joint.friction) return;
-  if (analysis.type == CaseAnalysis::Type::dynamic && std::holds_alternative<Ida>(analysis.integrator))
-    findings.error("analysis.integrator.type",
-                   "is \"ida\", but " + joint.path +
-                       " has friction, which \"ida\" has no memory for; use \"generalized-alpha\" or "
-                       "\"radau\"");
   if (analysis.has_modes()) findings.warn(joint.path + ".friction", "has no effect on modes and buckling");
 }
 
@@ -122,11 +111,7 @@ void warn_of_speed(const CaseSlidingJoint& from, const Rider& joint, const BeamM
   const BeamProperties& p = model.beam_of(joint).properties;
   const double waves = std::sqrt(p.axial_stiffness / p.mass_per_length);
   double fastest = std::abs(joint.speed);
-  if (joint.motion)
-    for (std::size_t i = 0; i + 1 < joint.motion->rows().size(); ++i) {
-      const auto &a = joint.motion->rows()[i], &b = joint.motion->rows()[i + 1];
-      fastest = std::max(fastest, std::abs((b.second - a.second) / (b.first - a.first)));
-    }
+  if (joint.motion) fastest = std::max(fastest, joint.motion->rows()->steepest());
   if (fastest > waves)
     findings.warn(from.path + (joint.motion ? ".motion" : ".speed"),
                   "moves body \"" + from.body + "\" at " + text_of(fastest, 6) +
@@ -228,9 +213,8 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                         const JoinedBeams& joined, const ModelFrame& frame, BeamModel& model,
                         std::vector<LawOfMotion>& motions, Findings& findings) {
   if (resolved.analysis.is_explicit() && !resolved.sliding_joints.empty())
-    findings.error(
-        "analysis.integrator.type",
-        "\"rk4\" is for models without sliding joints; use \"generalized-alpha\", \"radau\" or \"ida\"");
+    findings.error("analysis.integrator.type",
+                   "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"radau\"");
   for (const CaseBody& body : resolved.bodies) {
     model.bodies.push_back({.name = body.name,
                             .mass = body.mass,
@@ -255,14 +239,14 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                 .speed = joint.speed.value_or(0),
                 .motion = {},
                 .release = analysis.type == CaseAnalysis::Type::dynamic ? joint.release : std::nullopt,
-                .continuous_slope = joint.continuous_slope,
+                .continuous_slope = joint.slope != SlopeRule::discontinuous,
                 .leave_at_end = joint.leave_at_end,
                 .follows_section = joint.follows_section,
                 .offset = joint.offset.value_or(Eigen::Vector2d::Zero()),
                 .rest = joint.rest,
                 .friction = analysis.has_modes() ? std::nullopt : joint.friction,
                 .as_point = joint.as_point};
-    if (joint.as_point && !joint.continuous_slope)
+    if (joint.as_point && joint.slope == SlopeRule::discontinuous)
       findings.error(
           joint.path + ".carried_as",
           "is \"point\", but the slope is \"discontinuous\", and inside an element there is no kink; use "
@@ -273,14 +257,14 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)
       if (resolved.bodies[i].name == joint.body) added.body = static_cast<int>(i);
     if (!joint.motion_table.empty()) {
-      check_motion(joint, added.s, curve, findings);
-      added.motion = joint.motion_table;
-      added.s = value_and_slope(joint.motion_table, 0).first;
+      added.motion = PlaceMotion(joint.motion_table, joint.motion_join,
+                                 curve.closed() ? RowCurve::unbounded : std::pair(0.0, curve.length()));
+      note_jumps(joint, *added.motion->rows(), findings);
+      check_motion(joint, *added.motion->rows(), added.s, curve, findings);
+      added.s = added.motion->at(0).s;
     }
     if (joint.motion_speed)
       added.motion = steady_motion(added.s, *joint.motion_speed, curve, analysis.end_time);
-    if (joint.leave_at_end && analysis.type == CaseAnalysis::Type::dynamic)
-      warn_of_held_ends(joint, b, curve, model, joined.places[b], findings);
     warn_of_stiff_hinge(joint, added, model, findings);
     warn_of_speed(joint, added, model, findings);
     if (joint.motion_law)

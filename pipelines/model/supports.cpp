@@ -11,6 +11,30 @@ namespace nurbeam {
 
 namespace {
 
+// Speeds that jump are blows on the beam.
+void note_jumps(const std::string& path, const DisplacementTable& motion, double end_time,
+                Findings& findings) {
+  double largest = 0, at = 0;
+  for (const auto& [time, place] : motion.components()[0].rows()) {
+    if (time >= end_time) break;
+    Eigen::Vector3d jump;
+    for (int k = 0; k < 3; ++k) {
+      const auto [before, after] = *motion.components()[k].slopes_at(time);
+      jump[k] = after - before;
+    }
+    if (jump.norm() <= largest) continue;
+    largest = jump.norm();
+    at = time;
+  }
+  if (largest > 0)
+    findings.add(
+        Severity::note, path + ".interpolation",
+        "\"linear\" makes the speed jump at the rows, by up to " + text_of(largest, 4) + " m/s at " +
+            text_of(at, 6) +
+            " s: each jump is a blow that runs along the beam as a wave, which steps shorter than its "
+            "way along an element resolve");
+}
+
 // A motion begins where the beam is drawn, unless the run begins with a search for rest.
 std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const CaseSupport& support,
                                            const ModelFrame& frame, Findings& findings) {
@@ -18,9 +42,12 @@ std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const C
   std::vector<DisplacementTable::Row> rows;
   for (const auto& [time, displacement] : support.motion)
     rows.emplace_back(time, frame.direction_to_local(displacement));
-  const DisplacementTable motion(std::move(rows));
-  const double start = motion.at(0).value.norm();
   const CaseAnalysis& analysis = resolved.analysis;
+  const bool moves = analysis.type == CaseAnalysis::Type::dynamic;  // else it grows with the load factor
+  const DisplacementTable motion(rows, moves ? support.motion_join : RowJoin::linear);
+  if (moves && support.motion_join == RowJoin::linear)
+    note_jumps(support.path, motion, analysis.end_time, findings);
+  const double start = motion.at(0).value.norm();
   if (start > 0 && analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium)
     findings.error(
         support.path + ".motion",

@@ -10,13 +10,14 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/report/report_template.h"
 #include "pipelines/results/base64.h"
+#include "pipelines/results/checked_json.h"
+#include "pipelines/results/checksum.h"
 #include "pipelines/results/frame_layout.h"
 #include "pipelines/results/history_columns.h"
 #include "pipelines/results/results.h"
@@ -107,12 +108,19 @@ std::vector<Field> all_fields() {
        }}};
 }
 
+/// From the drawing, of the control points [m].
+Eigen::Matrix<double, 3, 4> displacements_of(const ElementRecord& element) {
+  return element.control_points.colwise().hnormalized() - element.drawn_points;
+}
+
 /// What must be known of all frames before one can be written.
 struct Survey {
   std::vector<Field> fields = all_fields();
   Eigen::AlignedBox<double, 3> box;                        ///< of the whole run [m]
   bool rational = false;                                   ///< the weights of some element differ
   bool sections = false;                                   ///< beams have torsion: their sections turn
+  bool drawn = true;                                       ///< where the elements are drawn is known
+  double displacement = 0;                                 ///< largest of a control point [m]
   std::vector<std::vector<std::uint32_t>> element_counts;  ///< per frame, per beam
   std::vector<Column> columns;
 
@@ -134,7 +142,8 @@ struct Survey {
   std::size_t bytes_of_frame(std::size_t frame) const {
     std::size_t bytes = columns.size() * sizeof(double);
     for (const std::size_t n : element_counts[frame])
-      bytes += sizeof(float) * (3 * (3 * n + 1) + (rational ? 4 * n : 0) + (sections ? 12 * n : 0) + n + 1) +
+      bytes += sizeof(float) * ((drawn ? 2 : 1) * 3 * (3 * n + 1) + (rational ? 4 * n : 0) +
+                                (sections ? 12 * n : 0) + n + 1) +
                (2 * sizeof(float) + 4 * n) * fields.size();
     return bytes;
   }
@@ -145,6 +154,8 @@ struct Survey {
     for (int i = 0; i < 4; ++i)
       box.extend(Eigen::Vector3d(element.control_points.col(i).head<3>() / weights[i]));
     rational = rational || weights.minCoeff() != weights.maxCoeff();
+    drawn = drawn && element.drawn_points.allFinite();
+    if (drawn) displacement = std::max(displacement, displacements_of(element).colwise().norm().maxCoeff());
     for (Field& field : fields) field.add(element);
   }
 };
@@ -161,6 +172,14 @@ Bytes shape_bytes(const Snapshot& frame, const Survey& survey) {
     for (const ElementRecord& element : beam.elements)
       for (int i = 0; i < 3; ++i) add_point(element, i);
     add_point(beam.elements.back(), 3);
+    if (survey.drawn) {
+      Eigen::Matrix<float, 3, 4> d;
+      for (const ElementRecord& element : beam.elements) {
+        d = displacements_of(element).cast<float>();
+        append(bytes, d.data(), 9);
+      }
+      append(bytes, d.col(3).data(), 3);
+    }
     for (const ElementRecord& element : beam.elements) {
       if (survey.rational) {
         const Eigen::Vector4f weights = element.control_points.row(3).transpose().cast<float>();
@@ -251,6 +270,8 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
           {"shapes",
            {{"rational", survey.rational},
             {"sections", survey.sections},
+            {"displaced", survey.drawn},
+            {"displacement", survey.drawn ? survey.displacement : 0},
             {"origin", to_json(survey.origin())},
             {"fields", fields},
             {"element_counts", base64_of(counts)}}}};
@@ -290,17 +311,6 @@ std::pair<std::string_view, std::string_view> cut(std::string_view text, std::st
   return {text.substr(0, at), text.substr(at + marker.size())};
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw std::invalid_argument(file.string() + ": " + std::strerror(errno) +
-                                "; expected a directory that nurbeam run has written");
-  }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 void write_report_page(std::ostream& stream, const ReportFrames& frames, const std::string& run_json,
@@ -317,6 +327,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
     const bool in_no_frame = field.min > field.max, is_nothing = field.min == 0 && field.max == 0;
     return in_no_frame || (is_nothing && (name == "torque" || (guides && name != "curvature")));
   });
+  survey.drawn = survey.drawn && !run.contains("modes") && !run.contains("buckling");  // of any amplitude
   const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
   Json data = description(frames, survey, kept);
   data["run"] = run;
@@ -336,6 +347,14 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
 
 namespace {
 
+std::string summary_in(const fs::path& directory) {
+  try {
+    return checked_json(directory / "run.json");
+  } catch (const DamagedError& error) {
+    throw std::invalid_argument(error.what());  // bad input
+  }
+}
+
 // Of the frames that frames() opens.
 template <class Frames>
 void write_page(const fs::path& directory, Frames frames) {
@@ -344,7 +363,7 @@ void write_page(const fs::path& directory, Frames frames) {
     std::error_code ignored;
     fs::remove(temporary_name(file), ignored);
   };
-  const std::string run_json = text_of(directory / "run.json");
+  const std::string run_json = summary_in(directory);
   std::ofstream stream;
   try {
     const ReportFrames shown = frames();
@@ -354,7 +373,7 @@ void write_page(const fs::path& directory, Frames frames) {
   } catch (const std::invalid_argument& error) {
     discard();
     throw std::invalid_argument(directory.string() + ": " + error.what());
-  } catch (const std::runtime_error& error) {  // netCDF's; it names its file
+  } catch (const std::runtime_error& error) {  // of a file, which it names
     discard();
     throw std::invalid_argument(error.what());
   }

@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -44,14 +45,15 @@ std::string hexadecimal(const unsigned char* bytes, unsigned count) {
   return text;
 }
 
-/// SHA-256 of all that a stream holds; an empty text when it or OpenSSL fails.
-std::string sha256(std::istream& stream) {
+/// SHA-256 of what a stream holds, at most so many bytes; an empty text when it or OpenSSL fails.
+std::string sha256(std::istream& stream, std::uintmax_t most) {
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(crypto().MD_CTX_new(),
                                                                         crypto().MD_CTX_free);
   bool good = context && crypto().DigestInit_ex(context.get(), crypto().sha256(), nullptr) == 1;
   std::array<char, 1 << 16> buffer;
-  while (good && stream) {
-    stream.read(buffer.data(), buffer.size());
+  while (good && stream && most > 0) {
+    stream.read(buffer.data(), static_cast<std::streamsize>(std::min<std::uintmax_t>(most, buffer.size())));
+    most -= static_cast<std::uintmax_t>(stream.gcount());
     good = crypto().DigestUpdate(context.get(), buffer.data(), stream.gcount()) == 1;
   }
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
@@ -62,10 +64,10 @@ std::string sha256(std::istream& stream) {
 
 }  // namespace
 
-std::string sha256_of_file(const std::filesystem::path& file) {
+std::string sha256_of_file(const std::filesystem::path& file, std::uintmax_t most) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(file, std::string("cannot be read: ") + std::strerror(errno));
-  const std::string digest = sha256(stream);
+  const std::string digest = sha256(stream, most);
   if (digest.empty())
     fail(file, stream.bad() ? std::string("cannot be read: ") + std::strerror(errno)
                             : std::string("OpenSSL offers no SHA-256"));
@@ -74,7 +76,7 @@ std::string sha256_of_file(const std::filesystem::path& file) {
 
 std::string sha256_of_text(const std::string& text) {
   std::istringstream stream(text);
-  const std::string digest = sha256(stream);
+  const std::string digest = sha256(stream, text.size());
   if (digest.empty()) throw std::runtime_error("OpenSSL offers no SHA-256");
   return digest;
 }

@@ -3,6 +3,8 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "fem/motion/record/snapshot.h"
@@ -46,6 +48,12 @@ inline constexpr BodyPart friction_parts[] = {
 
 inline std::span<const BodyPart> known_body_parts(const SnapshotNames& names) {
   return names.friction ? std::span<const BodyPart>(friction_parts) : std::span<const BodyPart>();
+}
+
+/// A name of SnapshotNames::measures as the name of an object and a quantity.
+inline std::pair<std::string, std::string> parts_of_measure(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
 /// What a connector does: variables connector_NAME, columns NAME.COLUMN.

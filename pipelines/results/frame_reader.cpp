@@ -3,16 +3,28 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "pipelines/results/checksum.h"
+#include "pipelines/results/file_error.h"
 #include "pipelines/results/frame_layout.h"
 
 namespace nurbeam {
 
+namespace {
+
+NetcdfFile opened(const std::filesystem::path& file) {
+  check_file(file);
+  return NetcdfFile::open(file);
+}
+
+}  // namespace
+
 FrameReader::FrameReader(const std::filesystem::path& file)
-    : file_(NetcdfFile::open(file)), title_(file_.attribute("", "title")) {
+    : file_(opened(file)), title_(file_.attribute("", "title")) {
   if (file_.has_dimension("probe")) names_.probes = file_.texts("probe_name");
   if (file_.has_dimension("body")) names_.bodies = file_.texts("body_name");
   if (file_.has_dimension("reaction")) names_.reactions = file_.texts("reaction_name");
   if (file_.has_dimension("connector")) names_.connectors = file_.texts("connector_name");
+  if (file_.has_dimension("measure")) names_.measures = file_.texts("measure_name");
   names_.beams = file_.texts("beam_name");
   names_.friction = file_.has_variable(std::string("body_") + friction_parts[0].name);
   names_.springs = file_.has_variable("energy_spring");
@@ -23,6 +35,21 @@ FrameReader::FrameReader(const std::filesystem::path& file)
   element_counts_ = file_.integers("element_count", {0, 0}, {n, beams});
   node_counts_ = file_.integers("node_count", {0, 0}, {n, beams});
   step_counts_ = file_.integers("solver_step_count", {0}, {n});
+  check_counts(file);
+}
+
+// What a file without a checksum says of its rows need not be so.
+void FrameReader::check_counts(const std::filesystem::path& file) const {
+  const auto check = [&](const Integers& counts, const char* dimension) {
+    std::size_t sum = 0;
+    for (const int count : counts) sum += static_cast<std::size_t>(std::max(count, 0));
+    const bool positive = std::all_of(counts.begin(), counts.end(), [](int count) { return count >= 0; });
+    if (!positive || (sum > 0 && sum != file_.size(dimension)))
+      fail(file, std::string("is damaged: its counts do not fit its rows of ") + dimension);
+  };
+  check(element_counts_, "element");
+  check(node_counts_, "node");
+  check(step_counts_, "solver_step");
 }
 
 StoredRows FrameReader::rows() const {
@@ -40,6 +67,7 @@ std::vector<Snapshot> FrameReader::read(std::size_t first, std::size_t count) co
     frame.beams.resize(names_.beams.size());
     frame.reactions.resize(names_.reactions.size());
     frame.connectors.resize(names_.connectors.size());
+    frame.measures.resize(names_.measures.size());
   }
   read_scalars(first, frames);
   read_points(first, frames);
@@ -155,8 +183,14 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
         });
   for (const ConnectorPlace& place : connector_places)
     vectors(
-        std::string("connector_") + place.name, names_.connectors.size(),
-        [&](Snapshot & f, std::size_t j) -> auto& { return f.connectors[j].*place.value; });
+        std::string("connector_") + place.name,
+        names_.connectors.size(), [&](Snapshot & f, std::size_t j) -> auto& {
+          return f.connectors[j].*place.value;
+        });
+  for (const auto& [name, part] : {std::pair{"measure", &Extreme::value}, {"measure_s", &Extreme::s}})
+    numbers(
+        name, names_.measures.size(),
+        [part = part](Snapshot & f, std::size_t j) -> auto& { return f.measures[j].*part; });
   vectors(
       "reaction_position", reactions,
       [](Snapshot & f, std::size_t j) -> auto& { return f.reactions[j].position; });
@@ -177,6 +211,9 @@ void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames
       frames[i].beams[b].elements.resize(counts[static_cast<std::ptrdiff_t>(i * beams + b)]);
   if (count == 0) return;
   const Doubles points = file_.doubles("control_points", {start, 0, 0}, {count, 4, 4});
+  const Doubles drawn = file_.has_variable("drawn_control_points")  // earlier versions have none
+                            ? file_.doubles("drawn_control_points", {start, 0, 0}, {count, 4, 3})
+                            : Doubles(12 * count, NetcdfFile::fill);
   const Doubles velocity = file_.doubles("velocity", {start, 0, 0}, {count, sample_count, 3});
   const auto sampled = with_own_axes(sampled_fields, own_axes_fields, names_.sections);
   std::vector<Doubles> scalars, fields, axes;
@@ -193,6 +230,8 @@ void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames
   std::size_t i = 0;
   for_each_element(frames, [&](ElementRecord& e) {
     e.control_points = Eigen::Map<const Eigen::Matrix4d>(points.data() + 16 * i);
+    e.drawn_points =
+        Eigen::Map<const Eigen::Matrix<double, 3, 4>>(drawn.data() + 12 * i).unaryExpr(&unfilled);
     for (std::size_t k = 0; k < scalars.size(); ++k) e.*element_fields[k].value = scalars[k][i];
     e.velocity = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(velocity.data() + 12 * i);
     for (std::size_t k = 0; k < fields.size(); ++k)

@@ -11,7 +11,7 @@ namespace nurbeam {
 /// What a FrameStore has written.
 class FrameReader {
  public:
-  /// Throws std::runtime_error (file and reason).
+  /// Throws std::runtime_error (file and reason), DamagedError where the file's checksum is not its own.
   explicit FrameReader(const std::filesystem::path& file);
 
   const std::string& title() const { return title_; }
@@ -22,6 +22,7 @@ class FrameReader {
   std::vector<Snapshot> read(std::size_t first, std::size_t count) const;
 
  private:
+  void check_counts(const std::filesystem::path& file) const;
   void read_scalars(std::size_t first, std::vector<Snapshot>& frames) const;
   void read_points(std::size_t first, std::vector<Snapshot>& frames) const;
   void read_forces(std::size_t first, std::vector<Snapshot>& frames) const;

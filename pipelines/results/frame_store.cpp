@@ -4,18 +4,21 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipelines/results/checksum.h"
 #include "pipelines/results/frame_layout.h"
 
 namespace nurbeam {
 
 FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& names,
                        const std::string& title, bool packed, const StoredRows& expected)
-    : file_(NetcdfFile::create(file, packed)),
+    : path_(file),
+      file_(NetcdfFile::create(file, packed)),
       probe_count_(names.probes.size()),
       body_count_(names.bodies.size()),
       beam_count_(names.beams.size()),
       reaction_count_(names.reactions.size()),
       connector_count_(names.connectors.size()),
+      measure_count_(names.measures.size()),
       sections_(names.sections),
       springs_(names.springs),
       body_parts_(known_body_parts(names)),
@@ -26,6 +29,7 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
   file_.put_attribute("", "Conventions", "CF-1.8");
   file_.put_attribute("", "title", title);
   file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
+  file_.put_attribute("", "checksum", std::string(checksum_attribute));
   file_.define_dimension("time", NetcdfFile::unlimited);
   file_.define_dimension("xyz", 3);
   define_scalars();
@@ -47,7 +51,13 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
   define_beams(names.beams);
   define_reactions(names.reactions);
   define_connectors(names.connectors);
+  define_measures(names.measures);
   define_steps();
+}
+
+void FrameStore::close() {
+  file_.close();
+  append_checksum(path_);
 }
 
 void FrameStore::define_of_time(const std::string& name, std::vector<std::string> dimensions,
@@ -101,6 +111,8 @@ void FrameStore::define_beams(const std::vector<std::string>& names) {
   };
   define("control_points", {"element", "control_point", "homogeneous"}, "m",
          "deformed rational cubic as (w x, w y, w z, w); the weight w has no unit");
+  define("drawn_control_points", {"element", "control_point", "xyz"}, "m",
+         "the cubic as drawn, with the weights of control_points");
   for (const ElementField& field : element_fields)
     define(field.name, {"element"}, field.unit, field.long_name);
   const std::string samples = "samples at u = 0, 1/3, 2/3, 1 of the element's cubic";
@@ -129,6 +141,14 @@ void FrameStore::define_reactions(const std::vector<std::string>& names) {
   define_of_time("reaction_force", {"reaction", "xyz"}, "N",
                  "force of the support on its beam, of the second of two joined beams on the first");
   define_of_time("reaction_couple", {"reaction", "xyz"}, "N m", "likewise the couple");
+}
+
+void FrameStore::define_measures(const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  file_.define_dimension("measure", names.size());
+  file_.define_texts("measure_name", "measure", "beam and quantity, or name of the clearance", names);
+  define_of_time("measure", {"measure"}, "m", "sag of a part of a beam, or clearance below it");
+  define_of_time("measure_s", {"measure"}, "m", "where: reference arc length");
 }
 
 void FrameStore::define_connectors(const std::vector<std::string>& names) {
@@ -197,6 +217,7 @@ void FrameStore::write(std::span<const Snapshot> frames) {
   write_beams(each);
   if (reaction_count_ > 0) write_reactions(each);
   if (connector_count_ > 0) write_connectors(each);
+  if (measure_count_ > 0) write_measures(each);
   write_elements(frames);
   write_nodes(frames);
   write_steps(frames);
@@ -205,6 +226,7 @@ void FrameStore::write(std::span<const Snapshot> frames) {
 }
 
 void FrameStore::copy(const std::filesystem::path& file, const StoredRows& rows) {
+  check_file(file);
   file_.append(NetcdfFile::open(file));
   written_ += rows;
 }
@@ -305,6 +327,16 @@ void FrameStore::write_reactions(const PerFrame& each) {
   write("reaction_couple", &ReactionRecord::couple);
 }
 
+void FrameStore::write_measures(const PerFrame& each) {
+  const auto write = [&](const char* name, double Extreme::*part) {
+    each.write(name, {measure_count_}, [part](const Snapshot& f, Doubles& x) {
+      for (const Extreme& measure : f.measures) x.push_back(filled(measure.*part));
+    });
+  };
+  write("measure", &Extreme::value);
+  write("measure_s", &Extreme::s);
+}
+
 void FrameStore::write_connectors(const PerFrame& each) {
   for (const ConnectorPart& part : connector_parts)
     each.write(std::string("connector_") + part.name, {connector_count_}, [&](const Snapshot& f, Doubles& x) {
@@ -331,6 +363,7 @@ class FrameStore::ElementBlock {
   void add(const ElementRecord& e) {
     // Columns are control points and Eigen stores by columns: the order (control_point, homogeneous).
     append(points_, e.control_points);
+    for (const double value : e.drawn_points.reshaped()) drawn_.push_back(filled(value));
     for (std::size_t i = 0; i < scalars_.size(); ++i) scalars_[i].push_back(e.*element_fields[i].value);
     for (std::size_t i = 0; i < fields_.size(); ++i)
       for (const double value : e.*store_->sampled_fields_[i].values) fields_[i].push_back(filled(value));
@@ -350,6 +383,7 @@ class FrameStore::ElementBlock {
       values.clear();
     };
     put("control_points", {4, 4}, points_);
+    put("drawn_control_points", {4, 3}, drawn_);
     for (std::size_t i = 0; i < scalars_.size(); ++i) put(element_fields[i].name, {}, scalars_[i]);
     for (std::size_t i = 0; i < fields_.size(); ++i)
       put(store_->sampled_fields_[i].name, {sample_count}, fields_[i]);
@@ -362,7 +396,7 @@ class FrameStore::ElementBlock {
   static constexpr std::size_t most = 4096;
 
   FrameStore* store_;
-  Doubles points_, velocity_;
+  Doubles points_, drawn_, velocity_;
   std::vector<Doubles> scalars_, fields_, axes_;
   std::size_t first_, count_ = 0;
 };

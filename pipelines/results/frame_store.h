@@ -18,18 +18,19 @@ namespace nurbeam {
 ///   have friction; beam_* and beam_*_s of beam_extremes (and of own_axes_parts and own_axes_extremes where
 ///   beams have torsion); connector_force, connector_length (time, connector), connector_from_position,
 ///   connector_to_position (time, connector, xyz), the fill value where an earlier version began the run,
-///   connector_name;
+///   connector_name; measure, measure_s (time, measure), where a model has sags of parts or clearances, with
+///   measure_name;
 ///   reaction_position, reaction_force, reaction_couple (time, reaction, xyz)
 ///   probe_name, body_name, beam_name, reaction_name
 /// and, because the elements of a beam and the steps between two frames change in number, contiguous ragged
 /// arrays (CF conventions, 9.3.3): the elements of the first beam at the first time, of the second beam, ...,
 /// of the first beam at the second time, ...:
 ///   element_count, node_count (time, beam): how many of the rows below belong to a beam at a time
-///   control_points (element, control_point, homogeneous): (w x, w y, w z, w); element_s_start, element_s_end
-///   (element); the sampled_fields (element, sample), velocity (element, sample, xyz), with torsion the
-///   own_axes_fields and section_axes (element, sample, xyz); node_position, node_slope (node, xyz); node_s
-///   (node) solver_step_count (time); solver_step_time, _size,
-///   _newton_iterations, _rejected (solver_step)
+///   control_points (element, control_point, homogeneous): (w x, w y, w z, w); drawn_control_points
+///   (element, control_point, xyz), with the same weights; element_s_start, element_s_end (element); the
+///   sampled_fields (element, sample), velocity (element, sample, xyz), with torsion the own_axes_fields and
+///   section_axes (element, sample, xyz); node_position, node_slope (node, xyz); node_s (node)
+///   solver_step_count (time); solver_step_time, _size, _newton_iterations, _rejected (solver_step)
 class FrameStore {
  public:
   /// Makes the file, without frames; `expected`: about how much is to come. This and the others throw
@@ -43,7 +44,8 @@ class FrameStore {
   void write_ahead(std::span<const ElementRecord> elements);
   /// Appends what another store of the same names has written, of which there is so much.
   void copy(const std::filesystem::path& file, const StoredRows& rows);
-  void close() { file_.close(); }
+  /// Ends the file, with its checksum.
+  void close();
 
  private:
   void define_of_time(const std::string& name, std::vector<std::string> dimensions, const std::string& unit,
@@ -53,6 +55,7 @@ class FrameStore {
   void define_beams(const std::vector<std::string>& names);
   void define_reactions(const std::vector<std::string>& names);
   void define_connectors(const std::vector<std::string>& names);
+  void define_measures(const std::vector<std::string>& names);
   void define_steps();
   class PerFrame;
   void write_scalars(const PerFrame& each);
@@ -61,13 +64,15 @@ class FrameStore {
   void write_beams(const PerFrame& each);
   void write_reactions(const PerFrame& each);
   void write_connectors(const PerFrame& each);
+  void write_measures(const PerFrame& each);
   void write_elements(std::span<const Snapshot> frames);
   class ElementBlock;
   void write_nodes(std::span<const Snapshot> frames);
   void write_steps(std::span<const Snapshot> frames);
 
+  std::filesystem::path path_;
   NetcdfFile file_;
-  std::size_t probe_count_, body_count_, beam_count_, reaction_count_, connector_count_;
+  std::size_t probe_count_, body_count_, beam_count_, reaction_count_, connector_count_, measure_count_;
   bool sections_, springs_;
   std::span<const BodyPart> body_parts_;
   std::vector<SectionPart> section_parts_;

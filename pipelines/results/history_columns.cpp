@@ -20,7 +20,8 @@ class Columns {
                  .probes = kind == "probe",
                  .sections = false,
                  .reactions = kind == "reaction",
-                 .energy = kind == "energy"};
+                 .energy = kind == "energy",
+                 .measures = kind == "measure"};
     kind_ = kind;
     index_ = index;
     name_ = name;
@@ -156,6 +157,14 @@ void add_derived(const SnapshotNames& names, Columns& columns) {
   }
 }
 
+void add_measures(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.measures.size(); ++i) {
+    const auto& [name, quantity] = parts_of_measure(names.measures[i]);
+    columns.of("measure", i, name);
+    columns.add(quantity, "m", [i](const Snapshot& f) { return f.measures[i].value; });
+  }
+}
+
 }  // namespace
 
 std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
@@ -168,6 +177,7 @@ std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
   add_spring(names, columns);
   add_friction(names, columns);
   add_connectors(names, columns);
+  add_measures(names, columns);
   return all;
 }
 

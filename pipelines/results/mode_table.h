@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct ModeRow {
   Eigen::Vector3d participation = Eigen::Vector3d::Zero();  ///< [sqrt(kg)]
 
   double round_off = 0;  ///< of omega^2 [1/s^2]
+  /// Half wave of bending in diameters of the beam, and the part by which the frequency is too high without
+  /// shear and rotary inertia; infinite and 0 where the mode does not bend.
+  double diameters = std::numeric_limits<double>::infinity(), excess = 0;
 
   double frequency() const;                                                     ///< [Hz]
   Eigen::Vector3d effective_mass() const { return participation.cwiseAbs2(); }  ///< [kg]

@@ -1,12 +1,17 @@
 #include "pipelines/results/netcdf_file.h"
 
 #include <netcdf.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -57,6 +62,7 @@ struct Netcdf : LateLibrary {
   NURBEAM_LATE(set_chunk_cache);
   NURBEAM_LATE(set_fill);
   NURBEAM_LATE(strerror);
+  NURBEAM_LATE(sync);
 #undef NURBEAM_LATE
 };
 
@@ -71,10 +77,47 @@ std::string reason_of(int status) {
   return is_full ? std::strerror(errno) : netcdf().strerror(status);
 }
 
+// Whether there is memory for a call of netCDF.
+bool has_memory() {
+  constexpr std::size_t for_a_call = 16 * 1024 * 1024;
+  void* some = mmap(nullptr, for_a_call, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  return some != MAP_FAILED && munmap(some, for_a_call) == 0;
+}
+
 // netCDF and HDF5 are not made for threads: one call at a time in the whole process.
-[[nodiscard]] std::unique_lock<std::recursive_mutex> one_at_a_time() {
+[[nodiscard]] std::unique_lock<std::recursive_mutex> alone() {
   static std::recursive_mutex mutex;
   return std::unique_lock(mutex);
+}
+
+// Alone, and with memory: HDF5 ends the process, or crashes, where that runs short within it.
+[[nodiscard]] std::unique_lock<std::recursive_mutex> one_at_a_time() {
+  auto lock = alone();
+  if (!has_memory()) throw std::bad_alloc();
+  return lock;
+}
+
+// A file that cannot be closed stays open in HDF5, which writes to it again as the process ends, and crashes.
+// What is registered later ends first: the process then ends without HDF5.
+void end_without_hdf5() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    on_exit(
+        [](int exit_code, void*) {
+          std::fflush(nullptr);
+          _exit(exit_code);
+        },
+        nullptr);
+  });
+}
+
+// Closes a file and tells whether it could. netCDF crashes where writing fails as it closes: what is to be
+// written is written before, and a file that cannot be is left.
+int closed(int id) {
+  int status = netcdf().sync(id);
+  if (status == NC_NOERR) status = netcdf().close(id);
+  if (status != NC_NOERR) end_without_hdf5();
+  return status;
 }
 
 // What a variable keeps in memory [B]: of one that is written or read in order, the end and what follows it.
@@ -98,7 +141,10 @@ const double NetcdfFile::fill = NC_FILL_DOUBLE;
 NetcdfFile::NetcdfFile(std::filesystem::path file, int id, int status) : file_(std::move(file)), id_(id) {
   if (status == NC_NOERR) return;
   id_ = -1;
-  throw std::runtime_error(file_.string() + ": " + reason_of(status));
+  std::error_code none;
+  const bool is_homeless = file_.has_parent_path() && !std::filesystem::exists(file_.parent_path(), none);
+  throw std::runtime_error(file_.string() + ": " +
+                           (is_homeless ? "its directory is not there" : reason_of(status)));
 }
 
 NetcdfFile NetcdfFile::create(const std::filesystem::path& file, bool packed) {
@@ -141,8 +187,8 @@ NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
 
 NetcdfFile::~NetcdfFile() {
   if (id_ < 0) return;
-  const auto lock = one_at_a_time();
-  netcdf().close(id_);
+  const auto lock = alone();
+  has_memory() ? void(closed(id_)) : end_without_hdf5();
 }
 
 void NetcdfFile::define_dimension(const std::string& name, std::size_t size) {
@@ -325,11 +371,13 @@ std::size_t NetcdfFile::size(const std::string& dimension) const {
 void NetcdfFile::close() {
   const auto lock = one_at_a_time();
   begin_values();
-  check(netcdf().close(std::exchange(id_, -1)), "close");
+  check(closed(std::exchange(id_, -1)), "close");
 }
 
 void NetcdfFile::check(int status, const std::string& what) const {
-  if (status != NC_NOERR) throw std::runtime_error(file_.string() + ": " + what + ": " + reason_of(status));
+  if (status == NC_NOERR) return;
+  if (status == NC_ENOMEM || errno == ENOMEM) throw std::bad_alloc();
+  throw std::runtime_error(file_.string() + ": " + what + ": " + reason_of(status));
 }
 
 int NetcdfFile::dimension(const std::string& name) const {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cad_import/files/atomic_file.h"
+#include "pipelines/results/checksum.h"
 #include "pipelines/results/netcdf_file.h"
 
 namespace nurbeam {
@@ -32,6 +33,7 @@ class Writer {
   explicit Writer(const std::filesystem::path& file) : file_(NetcdfFile::create_classic(file)) {
     file_.put_attribute("", "title", "restart point");
     file_.put_attribute("", "source", "nurbeam " NURBEAM_VERSION);
+    file_.put_attribute("", "checksum", std::string(checksum_attribute));
   }
 
   void numbers(const std::string& name, const std::string& meaning,
@@ -257,7 +259,8 @@ void exchange_history(Archive& archive, IntegratorHistory& history) {
   exchange_linearisation(archive, history.linearisation);
 }
 
-// All that is a single number, as one row.
+// All that is a single number, as one row. The times that the run took are left out: equal runs write equal
+// bytes.
 template <class Archive>
 void exchange_numbers(Archive& archive, Checkpoint& p) {
   std::vector<Checkpoint> row;
@@ -281,8 +284,6 @@ void exchange_numbers(Archive& archive, Checkpoint& p) {
                   slot(r.newton_iterations);
                   slot(r.cut_steps);
                   slot(r.shortest_cut);
-                  slot(r.motion_seconds);
-                  slot(r.length_control_seconds);
                   slot(r.energy_drift);
                   slot(r.integration_error);
                   slot(r.peak_kinetic_energy);
@@ -365,14 +366,19 @@ void exchange(Archive& archive, Checkpoint& p) {
                   slot(load.number);
                   for (double& component : load.value) slot(component);
                 });
-  exchange_rows(archive, "steps",
-                "time, size, Newton iterations, rejected, of each step since the last frame", p.steps,
-                [](StepRecord& step, auto& slot) {
-                  slot(step.time);
-                  slot(step.size);
-                  slot(step.newton_iterations);
-                  slot(step.rejected);
-                });
+  exchange_rows(
+      archive, "steps", "time, size, Newton iterations, rejected, of each step since the last frame", p.steps,
+      [](StepRecord& step, auto& slot) {
+        slot(step.time);
+        slot(step.size);
+        slot(step.newton_iterations);
+        slot(step.rejected);
+      });
+  exchange_rows(
+      archive, "peaks", "what was largest, by the watch between frames", p.peaks,
+      [](double& number, auto& slot) { slot(number); });
+  exchange_rows(archive, "extremes", "value, s and time of each extreme of the run", p.extremes,
+                [](double& number, auto& slot) { slot(number); });
   exchange_events(archive, p.report.events);
   archive.texts("said_of_files", p.said_of_files);
 }
@@ -384,15 +390,19 @@ void write_checkpoint(const std::filesystem::path& file, Checkpoint point) {
     Writer archive(temporary_name(file));
     exchange(archive, point);
     archive.close();
+    append_checksum(temporary_name(file));
   } catch (const std::runtime_error&) {
     std::error_code ignored;
     std::filesystem::remove(temporary_name(file), ignored);
     throw;
   }
-  publish_durably(file);
+  publish(file);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
+  if (check_file(file) == Checksum::none)
+    throw std::runtime_error(file.string() +
+                             ": has no checksum: an earlier version has written it, or it is damaged");
   Checkpoint point;
   Reader archive(file);
   try {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cad_import/files/atomic_file.h"
+#include "pipelines/results/checksum.h"
 #include "pipelines/results/file_error.h"
 #include "pipelines/results/frame_reader.h"
 #include "pipelines/results/frame_store.h"
@@ -55,6 +56,12 @@ std::vector<fs::path> chunks_in(const fs::path& directory) {
   return chunks;
 }
 
+/// Those of a run that has finished, or of one that has not.
+std::vector<fs::path> frame_files(const fs::path& directory) {
+  if (is_there(store_file(directory))) return {store_file(directory)};
+  return chunks_in(directory);
+}
+
 /// What is read again soon is not compressed.
 enum class Use { passing, lasting };
 
@@ -72,7 +79,7 @@ class TemporaryFile {
 
   fs::path name() const { return temporary_name(file_); }
   void publish() {
-    publish_durably(file_);
+    nurbeam::publish(file_);
     is_published_ = true;
   }
 
@@ -271,7 +278,7 @@ void ResultsWriter::finish() {
   Implementation& files = *implementation_;
   files.merge();
   files.histories.close();
-  publish_durably(history_file(files.directory));
+  publish(history_file(files.directory));
 }
 
 // --- Reading
@@ -284,10 +291,7 @@ struct StoredFrames::Implementation {
 
 StoredFrames::StoredFrames(const fs::path& directory) : implementation_(std::make_unique<Implementation>()) {
   implementation_->file = store_file(directory);
-  if (is_there(store_file(directory)))
-    implementation_->files.emplace_back(store_file(directory));
-  else
-    for (const fs::path& file : chunks_in(directory)) implementation_->files.emplace_back(file);
+  for (const fs::path& file : frame_files(directory)) implementation_->files.emplace_back(file);
   if (implementation_->files.empty())
     fail(store_file(directory), is_there(directory)
                                     ? "does not exist; expected a directory that `nurbeam run` has written"
@@ -336,6 +340,14 @@ std::size_t StoredFrames::nearest(double time) const {
 StoredResults read_results(const fs::path& directory) {
   const StoredFrames stored(directory);
   return {stored.title(), stored.names(), stored.read(0, stored.times().size())};
+}
+
+std::optional<Diagnostic> missing_checksum(const fs::path& directory) {
+  const std::vector<fs::path> files = frame_files(directory);
+  if (std::all_of(files.begin(), files.end(), &has_checksum)) return {};
+  return Diagnostic{Severity::warning, store_file(directory).string(),
+                    "has no checksum, as results of earlier versions: damage to it would go unseen; run the "
+                    "case again for one"};
 }
 
 std::pair<double, std::vector<StoredBeam>> read_stored_beams(const fs::path& directory, double time) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad_import/report/diagnostic.h"
 #include "fem/motion/record/snapshot.h"
 
 namespace nurbeam {
@@ -83,6 +84,10 @@ class StoredFrames {
 
 /// Throws std::runtime_error (file and reason).
 StoredResults read_results(const std::filesystem::path& directory);
+
+/// A warning of stored frames without a checksum, which are of an earlier version; nothing where they have
+/// one.
+std::optional<Diagnostic> missing_checksum(const std::filesystem::path& directory);
 
 /// One beam of a stored frame, as read back.
 struct StoredBeam {

@@ -8,7 +8,14 @@ namespace nurbeam {
 
 // Every frame offers the same quantities in the same order; NaN where there is no value.
 void RunExtremes::keep(const RunExtreme& candidate, bool least) {
-  if (next_ == list_.size()) list_.push_back(candidate);
+  if (next_ == list_.size()) {
+    list_.push_back(candidate);
+    if (const std::size_t i = 3 * next_; i + 2 < before_.size()) {
+      list_.back().value = before_[i];
+      list_.back().s = std::isnan(before_[i + 1]) ? std::nullopt : std::optional(before_[i + 1]);
+      list_.back().time = before_[i + 2];
+    }
+  }
   RunExtreme& kept = list_[next_++];
   const bool more = least ? candidate.value < kept.value : std::abs(candidate.value) > std::abs(kept.value);
   if (more || std::isnan(kept.value)) kept = candidate;
@@ -20,7 +27,9 @@ void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
   for (std::size_t i = 0; i < frame.beams.size(); ++i)
     for (const BeamExtreme& of : extremes) {
       const Extreme& extreme = frame.beams[i].*of.value;
-      keep({names.beams.at(i) + "." + of.column, of.unit, extreme.value, extreme.s, frame.time}, of.least);
+      keep(
+          {names.beams.at(i) + "." + of.column, of.unit, extreme.value, extreme.s, frame.time, extreme.layer},
+          of.least);
     }
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
     const BodyRecord& body = frame.bodies[i];
@@ -34,6 +43,23 @@ void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
     keep({name + ".force", "N", reaction.force.norm(), std::nullopt, frame.time}, false);
     keep({name + ".couple", "N m", reaction.couple.norm(), std::nullopt, frame.time}, false);
   }
+  for (std::size_t i = 0; i < frame.connectors.size(); ++i)
+    keep({names.connectors.at(i) + ".force", "N", frame.connectors[i].force, std::nullopt, frame.time},
+         false);
+  for (std::size_t i = 0; i < frame.measures.size(); ++i)
+    keep({names.measures.at(i), "m", frame.measures[i].value, frame.measures[i].s, frame.time},
+         parts_of_measure(names.measures[i]).second == "clearance");
+  for (const auto& [name, energy] : {std::pair{"kinetic", frame.energy.kinetic},
+                                     {"axial", frame.energy.axial},
+                                     {"bending", frame.energy.bending}})
+    keep({std::string("energy.") + name, "J", energy, std::nullopt, frame.time}, false);
+}
+
+std::vector<double> RunExtremes::numbers() const {
+  std::vector<double> numbers;
+  for (const RunExtreme& each : list_)
+    numbers.insert(numbers.end(), {each.value, each.s.value_or(std::nan("")), each.time});
+  return numbers;
 }
 
 }  // namespace nurbeam

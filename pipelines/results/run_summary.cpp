@@ -1,12 +1,12 @@
 #include "pipelines/results/run_summary.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "cad_import/files/atomic_file.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/results/checked_json.h"
 
 namespace nurbeam {
 
@@ -46,11 +46,13 @@ Json to_json(const Mismatch& mismatch) {
 }
 
 Json to_json(const RunExtreme& extreme) {
-  return {{"quantity", extreme.quantity},
-          {"unit", extreme.unit},
-          {"value", extreme.value},
-          {"s [m]", extreme.s ? Json(*extreme.s) : Json()},
-          {"time [s]", extreme.time}};
+  Json json = {{"quantity", extreme.quantity},
+               {"unit", extreme.unit},
+               {"value", extreme.value},
+               {"s [m]", extreme.s ? Json(*extreme.s) : Json()},
+               {"time [s]", extreme.time}};
+  if (extreme.layer) json["in a layer of [m]"] = *extreme.layer;
+  return json;
 }
 
 Json to_json(const ModeTable& table) {
@@ -125,25 +127,25 @@ void LeastStrain::look_at(std::span<const ElementRecord> elements, const std::st
 }
 
 void Fold::look_at(std::span<const ElementRecord> elements, const std::string& of_beam, double at_time) {
-  for (const ElementRecord& e : elements) {
-    const double share = e.axial_mismatch / (1 + 2 * std::max(0.0, e.strain.maxCoeff()));
-    if (share > value) *this = {share, of_beam, (e.s_start + e.s_end) / 2, at_time};
-  }
+  for (const ElementRecord& e : elements)
+    if (e.folded > value) *this = {e.folded, of_beam, (e.s_start + e.s_end) / 2, at_time};
 }
 
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary) {
   // Names from files need not be valid UTF-8: what is not is replaced.
-  const std::string text = to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text =
+      with_checksum(to_json(summary).dump(-1, ' ', false, Json::error_handler_t::replace));
   for (const Diagnostic& problem : write_at_once(file, text))
     throw std::runtime_error(problem.where + ": " + problem.message);
 }
 
 std::map<std::string, std::string> drawn_curve_names(const std::filesystem::path& directory) {
-  std::ifstream stream(directory / "run.json", std::ios::binary);
-  const Json run = Json::parse(stream, nullptr, false);
   std::map<std::string, std::string> names;
+  const std::filesystem::path file = directory / "run.json";
+  if (!std::filesystem::exists(file)) return names;
+  const Json run = Json::parse(checked_json(file));
   const Json::json_pointer beams("/model/beams");
-  if (run.is_object() && run.contains(beams))
+  if (run.contains(beams))
     for (const Json& beam : run[beams])
       if (beam.contains("curve")) names[beam.at("name")] = beam["curve"];
   return names;

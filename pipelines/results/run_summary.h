@@ -50,8 +50,7 @@ struct LeastStrain {
 /// The element that is nearest to folding back on itself in a run: its tangent turns round where it vanishes,
 /// and the ends and the mean of its axial strain do not see that.
 struct Fold {
-  double value =
-      0;  ///< the axial mismatch over |r_s|^2 where the element is longest; 1/2 of one that vanishes
+  double value = 0;  ///< ElementRecord::folded
   std::string beam;
   double s = 0, time = 0;  ///< the element's middle [m], [s]
 

@@ -93,10 +93,12 @@ std::string CadOutput::stem(const Snapshot& frame) const {
   return name.str();
 }
 
-std::vector<NamedCurve> CadOutput::curves(const Snapshot& frame, CurveParameter parameter) const {
+std::vector<NamedCurve> CadOutput::curves(const Snapshot& frame, CurveParameter parameter,
+                                          WholeConics conics) const {
   std::vector<NamedCurve> curves;
   for (std::size_t b = 0; b < frame.beams.size(); ++b)
-    curves.push_back({built_.sources[b].curve_name, deformed_curve(frame.beams[b].elements, parameter),
+    curves.push_back({built_.sources[b].curve_name,
+                      deformed_curve(frame.beams[b].elements, parameter, conics),
                       built_.model.beams[b].name});
   return curves;
 }
@@ -111,7 +113,7 @@ void CadOutput::flush() {
 std::vector<Diagnostic> CadOutput::write_solids(const Snapshot& frame,
                                                 const std::filesystem::path& file) const {
   std::vector<NamedSolid> solids;
-  std::vector<NamedCurve> axes = curves(frame, CurveParameter::free);
+  std::vector<NamedCurve> axes = curves(frame, CurveParameter::free, WholeConics::smooth);
   for (std::size_t b = 0; b < axes.size(); ++b) {
     if (built_.model.beams[b].rigid) continue;
     NamedCurve& axis = axes[b];
@@ -147,7 +149,7 @@ std::vector<Diagnostic> CadOutput::write_section_lines(const Snapshot& frame,
 std::vector<Diagnostic> CadOutput::write_into_source(const Snapshot& frame,
                                                      const std::filesystem::path& file) const {
   std::vector<DeformedCurve> deformed;
-  for (const NamedCurve& axis : curves(frame, case_.output.cad_parameter)) {
+  for (const NamedCurve& axis : curves(frame, case_.output.cad_parameter, WholeConics::as_drawn)) {
     const AxisSource& drawn = built_.sources[deformed.size()].axis.value();
     deformed.push_back({drawn.first, drawn.reversed ? axis.curve.reversed() : axis.curve, axis.name,
                         drawn.curves.size() > 1});
@@ -166,7 +168,8 @@ void CadOutput::write(const Snapshot& frame, const std::string& format,
   else if (format == "step-source")
     found = write_into_source(frame, file);
   else
-    pending_.push_back({file, curves(frame, case_.output.cad_parameter),
+    pending_.push_back({file,
+                        curves(frame, case_.output.cad_parameter, whole_conics_in(written_format(file))),
                         parse_length_unit(case_.output.cad_unit), case_.output.cad_schema});
   for (Diagnostic& diagnostic : found) diagnostic.severity = Severity::warning;  // the run goes on
   const auto is_known = [&](const Diagnostic& d) {                               // from an earlier frame

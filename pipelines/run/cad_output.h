@@ -7,6 +7,7 @@
 #include "fem/motion/record/snapshot.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/results/export_results.h"
 
 namespace nurbeam {
 
@@ -33,7 +34,7 @@ class CadOutput {
   // Six digits, or as many as tell it from the other times that the case lists.
   std::string time_text(double time) const;
   std::string stem(const Snapshot& frame) const;
-  std::vector<NamedCurve> curves(const Snapshot& frame, CurveParameter parameter) const;
+  std::vector<NamedCurve> curves(const Snapshot& frame, CurveParameter parameter, WholeConics conics) const;
   std::vector<Diagnostic> write_solids(const Snapshot& frame, const std::filesystem::path& file) const;
   std::vector<Diagnostic> write_section_lines(const Snapshot& frame, const std::filesystem::path& file) const;
   std::vector<Diagnostic> write_into_source(const Snapshot& frame, const std::filesystem::path& file) const;

@@ -1,10 +1,12 @@
 #include "pipelines/run/progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <ostream>
+#include <vector>
 
 namespace nurbeam {
 
@@ -23,6 +25,21 @@ std::string duration(double seconds) {
   return text;
 }
 
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[120];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+// As many of the parts as a line of that width has room for. A terminal breaks a line that fills it.
+std::string fitting(const std::vector<std::string>& parts, std::size_t width) {
+  std::string line = parts.front().substr(0, width - 1);
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (line.size() + 2 + parts[i].size() < width) line += "  " + parts[i];
+  return line;
+}
+
 }  // namespace
 
 Progress::Style Progress::style_of_stderr(bool quiet) {
@@ -30,28 +47,34 @@ Progress::Style Progress::style_of_stderr(bool quiet) {
   return isatty(STDERR_FILENO) ? Style::terminal : Style::lines;
 }
 
+std::size_t Progress::width_of_stderr() {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+}
+
 Progress::Progress(std::ostream& stream, Style style, double start_time, double end_time,
-                   Clock::time_point now)
+                   Clock::time_point now, std::size_t width)
     : stream_(stream),
       style_(style),
       start_time_(start_time),
       end_time_(end_time),
       start_(now),
       last_(now),
+      width_(width),
       next_tenth_(static_cast<int>(10 * start_time / end_time + 1e-9) + 1) {}
 
 std::string Progress::line(const StepRecord& step, Clock::time_point now) const {
   const double wall = std::chrono::duration<double>(now - start_).count();
   const double simulated = step.time - start_time_;
-  char text[200];
-  int length = std::snprintf(text, sizeof text, "%3.0f %%  t = %.4g of %.4g s", 100 * step.time / end_time_,
-                             step.time, end_time_);
-  if (simulated > 0 && wall > 0)
-    length += std::snprintf(text + length, sizeof text - length, "  %s to go  %.3g simulated s/s",
-                            duration(wall * (end_time_ - step.time) / simulated).c_str(), simulated / wall);
-  std::snprintf(text + length, sizeof text - length, "  step %.3g s, %d Newton", step.size,
-                step.newton_iterations);
-  return text;
+  std::vector<std::string> parts{
+      formatted("%3.0f %%  t = %.4g of %.4g s", 100 * step.time / end_time_, step.time, end_time_)};
+  if (simulated > 0 && wall > 0) {
+    parts.push_back(duration(wall * (end_time_ - step.time) / simulated) + " to go");
+    parts.push_back(formatted("%.3g simulated s/s", simulated / wall));
+  }
+  parts.push_back(formatted("step %.3g s, %d Newton", step.size, step.newton_iterations));
+  return style_ == Style::terminal ? fitting(parts, width_) : fitting(parts, std::string::npos);
 }
 
 void Progress::update(const StepRecord& step, Clock::time_point now) {

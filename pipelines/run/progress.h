@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 
@@ -17,9 +18,14 @@ class Progress {
 
   /// The style that suits stderr.
   static Style style_of_stderr(bool quiet);
+  /// The columns of the terminal that stderr is; 80 where it does not say.
+  static std::size_t width_of_stderr();
 
+  /// `width`: columns that a line on a terminal may take.
   Progress(std::ostream& stream, Style style, double start_time, double end_time,
-           Clock::time_point now = Clock::now());
+           Clock::time_point now = Clock::now(), std::size_t width = width_of_stderr());
+  /// Starts the clock anew: what came before, as a search for rest, says nothing of the time to go.
+  void begin_motion(Clock::time_point now = Clock::now()) { start_ = now; }
   /// Tells that the run has taken a step.
   void update(const StepRecord& step, Clock::time_point now = Clock::now());
   /// Ends the line on a terminal, so that other messages start on their own.
@@ -32,6 +38,7 @@ class Progress {
   Style style_;
   double start_time_, end_time_;  // [s], simulated
   Clock::time_point start_, last_;
+  std::size_t width_;
   int next_tenth_;
   bool line_open_ = false;
 };

@@ -21,9 +21,12 @@
 #include "pipelines/model/model_snapshot.h"
 #include "pipelines/model/model_summary.h"
 #include "pipelines/report/report.h"
+#include "pipelines/results/checksum.h"
+#include "pipelines/results/file_error.h"
 #include "pipelines/results/file_hash.h"
 #include "pipelines/results/results_directory.h"
 #include "pipelines/results/run_summary.h"
+#include "pipelines/run/closing_lines.h"
 #include "pipelines/run/kept_memory.h"
 #include "pipelines/run/mode_run.h"
 #include "pipelines/run/progress.h"
@@ -99,6 +102,7 @@ class Run {
       from_ = find_checkpoint(options.out, inputs_);
     else
       directory_.clear();
+    check_is_file(options.out / "run.log");
     log_.emplace(options.out / "run.log", options.resume ? std::ios::app : std::ios::trunc);
   }
 
@@ -118,6 +122,7 @@ class Run {
     }
     if (simulated.status != SimulationStatus::done && !thrown_)
       tell(case_.path.string() + ": error: " + outcome_in_world(simulated, built_));
+    if (simulated.status == SimulationStatus::done) tell_outcome(simulated, with_report);
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
     if (thrown_) std::rethrow_exception(thrown_);
     return exit_code_of(simulated.status);
@@ -128,6 +133,12 @@ class Run {
   void tell(const std::string& line) {
     messages_ << line << "\n";
     *log_ << line << std::endl;
+  }
+
+  void tell_outcome(const SimulationReport& simulated, bool with_report) {
+    const bool moves = case_.analysis.type == CaseAnalysis::Type::dynamic;
+    for (const std::string& line : closing_lines(summary_, simulated, moves, options_.out, with_report))
+      options_.quiet ? void(*log_ << line << std::endl) : tell(line);
   }
 
   void begin_log() {
@@ -155,7 +166,9 @@ class Run {
     write_mode_table(options_.out / "modes.csv", table);
     for (std::size_t i = 0; i < table.rows.size(); ++i)
       options_.quiet ? void(*log_ << mode_text(table, i) << std::endl) : tell(mode_text(table, i));
-    if (const auto warning = round_off_warning(case_.path, built_.model, table)) {
+    for (const auto& warning :
+         {round_off_warning(case_.path, built_.model, table), short_waves_warning(case_.path, table)}) {
+      if (!warning) continue;
       print_diagnostics(messages_, {*warning});
       print_diagnostics(*log_, {*warning});
       summary_.diagnostics.push_back(*warning);
@@ -183,7 +196,13 @@ class Run {
         if (std::exchange(first, false)) give_back_memory();
         outputs.write_ahead(time, beam, elements);
       };
-    observer.snapshot = [&](Snapshot snapshot) { outputs.write(std::move(snapshot)); };
+    observer.snapshot = [&, first = true](Snapshot snapshot) mutable {
+      outputs.write(std::move(snapshot));
+      if (!std::exchange(first, false)) return;
+      shown.begin_motion();
+      logged.begin_motion();
+    };
+    observer.peak = [&](Snapshot snapshot) { outputs.look_between(std::move(snapshot)); };
     observer.checkpoint_due = [&] { return outputs.checkpoint_due(); };
     observer.checkpoint = [&](Checkpoint point) {
       give_back_memory();  // it takes much to write
@@ -312,6 +331,9 @@ int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& op
     return Run(c, report, options, std::move(summary)).play();
   } catch (const UnusableCheckpoint& problem) {
     messages << "error: " << problem.what() << "\n";
+    return exit_bad_input;
+  } catch (const DamagedError& problem) {
+    messages << "error: " << problem.what() << ": run without --resume\n";
     return exit_bad_input;
   } catch (const std::runtime_error& problem) {
     messages << "error: " << problem.what() << "\n";

@@ -1,7 +1,9 @@
 #include "pipelines/run/run_checks.h"
 
+#include <optional>
 #include <string>
 
+#include "nurbs/number_text.h"
 #include "pipelines/run/simulation_plan.h"
 
 namespace nurbeam {
@@ -10,6 +12,8 @@ void FrameChecks::look_at(const Snapshot& frame) {
   for (int b = 0; b < static_cast<int>(frame.beams.size()); ++b)
     look_at(frame.beams[b].elements, b, frame.time);
   pulls_.look_at(frame);
+  high_stress_.look_at(frame, model_);
+  slack_kink_.look_at(frame, model_);
 }
 
 void FrameChecks::look_at(std::span<const ElementRecord> elements, int beam, double time) {
@@ -17,18 +21,54 @@ void FrameChecks::look_at(std::span<const ElementRecord> elements, int beam, dou
   mismatch_.look_at(elements, name, time);
   least_strain_.look_at(elements, name, time);
   fold_.look_at(elements, name, time);
+  beams_.look_at(elements, beam, time);
 }
+
+namespace {
+
+constexpr int digits = 4;
+
+std::optional<Diagnostic> high_stress_warning(const std::filesystem::path& file, const HighStress& stress) {
+  if (stress.value == 0) return {};
+  return Diagnostic{
+      Severity::warning, file.string() + ": beams",
+      "the stress of beam \"" + stress.beam + "\" reaches " + text_of(stress.value, digits) +
+          " Pa at s = " + text_of(stress.s, digits) + " m and t = " + text_of(stress.time, digits) + " s" +
+          (stress.layer ? " (in a layer of " + text_of(*stress.layer, digits) + " m)" : "") +
+          ", more than a fiftieth of its Young's modulus, " + text_of(stress.modulus, digits) +
+          " Pa, which no metal bears: a load, a section or a unit is wrong, the material is soft, or the "
+          "elements there are longer than bending reaches: give more of them"};
+}
+
+std::optional<Diagnostic> slack_kink_note(const std::filesystem::path& file, const SlackKink& kink) {
+  if (kink.beam.empty()) return {};
+  return Diagnostic{Severity::note, file.string() + ": beams",
+                    "beam \"" + kink.beam + "\" is not under tension at its kink at s = " +
+                        text_of(kink.s, digits) + " m at t = " + text_of(kink.time, digits) +
+                        " s: no layer of bending is known there, and extremes are without its moment and "
+                        "stress"};
+}
+
+}  // namespace
 
 std::vector<Diagnostic> run_warnings(const CaseFile& case_file, const BuiltModel& built,
                                      const SimulationReport& run, const FrameChecks& frames) {
   const std::filesystem::path& file = case_file.path;
   std::vector<Diagnostic> warnings = shared_pull_warnings(file, frames.shared_pulls().coarse());
   const auto pressed = compression_warning(file, frames.least_strain());
+  const auto folds = fold_warning(file, frames.fold());
   for (const auto& warning :
-       {pressed ? pressed : fold_warning(file, frames.fold()), divergence_warning(file, run),
-        snap_warning(file, run, built.model), mechanism_warning(file, run, built.frame),
-        energy_warning(case_file, run), short_steps_note(file, run)})
+       {pressed ? pressed : folds, divergence_warning(file, run), snap_warning(file, run, built.model),
+        mechanism_warning(file, run, built), energy_warning(case_file, run), short_steps_note(file, run),
+        high_stress_warning(file, frames.high_stress()), slack_kink_note(file, frames.slack_kink())})
     if (warning) warnings.push_back(*warning);
+  const auto add = [&](std::vector<Diagnostic> notes) {
+    for (Diagnostic& note : notes) warnings.push_back(std::move(note));
+  };
+  if (!pressed && !folds)
+    add(law_notes(case_file, built.model, frames.beams()));  // else strains are the mesh's
+  add(undamped_notes(case_file, built.model, frames.beams()));
+  add(loose_body_notes(case_file, built.model, run));
   return warnings;
 }
 

@@ -5,8 +5,10 @@
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/record/simulation_report.h"
 #include "pipelines/model/build_model.h"
+#include "pipelines/results/layer_checks.h"
 #include "pipelines/results/run_summary.h"
 #include "pipelines/results/shared_pull.h"
+#include "pipelines/run/model_notes.h"
 
 namespace nurbeam {
 
@@ -26,6 +28,10 @@ class FrameChecks {
   const LeastStrain& least_strain() const { return least_strain_; }
   const Fold& fold() const { return fold_; }
   const SharedPulls& shared_pulls() const { return pulls_; }
+  const BeamsInRun& beams() const { return beams_; }
+  const HighStress& high_stress() const { return high_stress_; }
+  /// The first.
+  const SlackKink& slack_kink() const { return slack_kink_; }
 
  private:
   const BeamModel& model_;
@@ -33,6 +39,9 @@ class FrameChecks {
   LeastStrain least_strain_;
   Fold fold_;
   SharedPulls pulls_;
+  BeamsInRun beams_;
+  HighStress high_stress_;
+  SlackKink slack_kink_;
 };
 
 /// All that is to be said of a run of motion or statics, of modes and buckling but for the table of these:

@@ -49,7 +49,9 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       results_(results_writer(case_file.name, built, directory, from)),
       cad_(case_file, built, directory, from ? from->snapshots : 0),
       next_restart_(Clock::now() + restart_interval),
-      checks_(built.model) {
+      names_(snapshot_names(built)),
+      checks_(built.model),
+      extremes_(from ? from->extremes : std::vector<double>{}) {
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
   if (from) diagnostics_ = warnings_of(from->said_of_files);
@@ -60,7 +62,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
 
 void RunOutputs::look_at(const Snapshot& frame) {
   checks_.look_at(frame);
-  extremes_.look_at(frame, snapshot_names(built_));
+  extremes_.look_at(frame, names_);
 }
 
 template <class Work>
@@ -92,6 +94,10 @@ void RunOutputs::write(Snapshot local) {
     cad_.write(frame, diagnostics_);
     results_.write(std::move(frame));
   });
+}
+
+void RunOutputs::look_between(Snapshot local) {
+  timed([&] { extremes_.look_at(to_world(built_.frame, std::move(local)), names_); });
 }
 
 void RunOutputs::write_shape(Snapshot local) {
@@ -133,6 +139,7 @@ void RunOutputs::put(Checkpoint point) {
   point.inputs = inputs_;
   point.model = model_;
   point.said_of_files = texts_of(diagnostics_);
+  point.extremes = extremes_.numbers();
   write_checkpoint(directory_ / "restart.nc", std::move(point));
   last_point_.reset();
 }

@@ -31,6 +31,8 @@ class RunOutputs {
   void write_ahead(double time, int beam, std::vector<ElementRecord>& local);
   /// Writes one frame, in the model's own coordinates.
   void write(Snapshot local);
+  /// Looks at a moment between two frames, in the model's own coordinates: its extremes count.
+  void look_between(Snapshot local);
   /// Writes a frame that shows a shape, in the model's own coordinates: no extreme counts.
   void write_shape(Snapshot local);
   /// Writes frames as a ParaView series NAME.pvd.
@@ -69,6 +71,7 @@ class RunOutputs {
   std::optional<Checkpoint> last_point_;  // for finish()
   double seconds_ = 0;
   std::vector<Diagnostic> diagnostics_;
+  SnapshotNames names_;
   FrameChecks checks_;
   RunExtremes extremes_;
 };

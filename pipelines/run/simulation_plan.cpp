@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "nurbs/number_text.h"
+#include "pipelines/diagnostics/simulation_text.h"
 
 namespace nurbeam {
 
@@ -41,7 +42,8 @@ SimulationOptions simulation_options(const CaseFile& c) {
 
 std::vector<ProbePlace> probe_places(const BuiltModel& built) {
   std::vector<ProbePlace> places;
-  for (const Probe& probe : built.probes) places.push_back({probe.beam, probe.s});
+  for (const Probe& probe : built.probes)
+    places.push_back({.beam = probe.beam, .s = probe.s, .side = probe.side});
   return places;
 }
 
@@ -70,13 +72,15 @@ std::optional<Diagnostic> compression_warning(const std::filesystem::path& file,
 }
 
 std::optional<Diagnostic> fold_warning(const std::filesystem::path& file, const Fold& fold) {
-  constexpr double half_gone = 0.25;  // half of |r_s|^2 is gone; coarse meshes lack a quarter
+  constexpr double half_gone = 0.2;  // |r_s| falls to a half inside at 0.235
   if (fold.value < half_gone) return {};
-  return Diagnostic{Severity::warning, file.string() + ": analysis",
-                    "beam \"" + fold.beam + "\" folds back on itself inside an element, at s = " +
-                        text_of(fold.s, 6) + " m at t = " + text_of(fold.time, 6) +
-                        " s: do not trust the result; take another number of elements, more as a rule, or "
-                        "a continuous slope of a body beside it"};
+  return Diagnostic{
+      Severity::warning, file.string() + ": analysis",
+      "beam \"" + fold.beam + "\" folds back on itself inside an element, at s = " + text_of(fold.s, 6) +
+          " m at t = " + text_of(fold.time, 6) +
+          " s: the part of its axial strain that the element cannot carry is R = " + text_of(fold.value, 2) +
+          ", and above 0.2 the beam turns round there; do not trust the result, and take more "
+          "elements or, of a rope that goes slack, more damping"};
 }
 
 std::vector<Diagnostic> shared_pull_warnings(const std::filesystem::path& file,
@@ -141,12 +145,12 @@ std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const 
 }
 
 std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, const SimulationReport& run,
-                                            const ModelFrame& frame) {
+                                            const BuiltModel& built) {
   if (!run.loose) return {};
   const LoosePart& loose = *run.loose;
   constexpr int digits = 3;
   const auto component = [](double value) { return text_of(std::abs(value) < 1e-3 ? 0 : value, digits); };
-  const Eigen::Vector3d direction = frame.direction_to_world(loose.direction);
+  const Eigen::Vector3d direction = built.frame.direction_to_world(loose.direction);
   return Diagnostic{
       Severity::warning, file.string() + ": supports",
       "nothing resists a motion of the model in which " +
@@ -154,8 +158,8 @@ std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, c
                ? "body \"" + loose.name + "\" moves furthest"
                : "beam \"" + loose.name + "\" moves furthest, at s = " + text_of(loose.s, 6) + " m") +
           ", along [" + component(direction[0]) + ", " + component(direction[1]) + ", " +
-          component(direction[2]) +
-          "]: the equilibrium that was found is one of many; hold what moves, or leave it to a load or to "
+          component(direction[2]) + "]" + turns_about_text(built.model) +
+          ": the equilibrium that was found is one of many; hold what moves, or leave it to a load or to "
           "gravity"};
 }
 

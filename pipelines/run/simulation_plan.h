@@ -40,9 +40,9 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
 std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run,
                                        const BeamModel& model);
 
-/// A warning where a model at rest is a mechanism; `file` heads it, `frame` is that of the model.
+/// A warning where a model at rest is a mechanism; `file` heads it.
 std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, const SimulationReport& run,
-                                            const ModelFrame& frame);
+                                            const BuiltModel& built);
 
 /// A warning where energy comes from nowhere or is lost.
 std::optional<Diagnostic> energy_warning(const CaseFile& case_file, const SimulationReport& run);

@@ -7,10 +7,7 @@
 
 namespace nurbeam::verification {
 
-namespace {
-
-// lambda with (S + EA (lambda^2 - 1)/2) lambda = T.
-double stretch(double S, double EA, double T) {
+double string_stretch(double S, double EA, double T) {
   double x = 1 + (T - S) / (EA + S);
   for (int i = 0; i < 50; ++i) {
     const double f = (S + EA * (x * x - 1) / 2) * x - T, slope = S + EA * (3 * x * x - 1) / 2;
@@ -20,24 +17,60 @@ double stretch(double S, double EA, double T) {
   return x;
 }
 
+namespace {
+
+constexpr int panels = 60;
+constexpr double gauss_places[] = {0.5 - 0.3872983346207417, 0.5, 0.5 + 0.3872983346207417};
+constexpr double gauss_weights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+
+// The way (x, z) along a length h that starts with the force (H, V).
+Eigen::Vector2d way(double H, double V, double h, double tension, double stiffness, double weight) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  const double panel = h / panels;
+  for (int i = 0; i < panels; ++i)
+    for (int point = 0; point < 3; ++point) {
+      const Eigen::Vector2d force(H, V + weight * panel * (i + gauss_places[point]));
+      const double T = force.norm();
+      sum += string_stretch(tension, stiffness, T) / T * gauss_weights[point] * panel * force;
+    }
+  return sum;
+}
+
 }  // namespace
+
+Eigen::Vector3d pull_of_string(const Eigen::Vector3d& chord, double length, double tension, double stiffness,
+                               double weight) {
+  const Eigen::Vector2d end(chord.head<2>().norm(), chord.z());
+  const double stretch = end.norm() / length;
+  Eigen::Vector2d force = (tension + stiffness * (stretch * stretch - 1) / 2) / length * end;
+  force.y() -= weight * length / 2;
+  const auto error = [&](const Eigen::Vector2d& f) -> Eigen::Vector2d {
+    return way(f.x(), f.y(), length, tension, stiffness, weight) - end;
+  };
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector2d open = error(force);
+    if (open.norm() < 1e-14 * length) break;
+    const double h = 1e-6 * force.norm();
+    Eigen::Matrix2d slope;
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d by = h * Eigen::Vector2d::Unit(k);
+      slope.col(k) = (error(force + by) - error(force - by)) / (2 * h);
+    }
+    force -= slope.partialPivLu().solve(open);
+  }
+  Eigen::Vector3d pull;
+  pull << force.x() / end.x() * chord.head<2>(), force.y();
+  return pull;
+}
 
 // From the start to the end, for the force (H, V) at the start and the springs' pulls: the horizontal force
 // changes where a spring pulls aslant, the vertical one by weight, too.
 std::vector<HangingString::AtPull> HangingString::shoot(const Eigen::VectorXd& unknowns) const {
-  constexpr int panels = 60;
-  constexpr double at[] = {0.5 - 0.3872983346207417, 0.5, 0.5 + 0.3872983346207417};
-  constexpr double weights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double x = 0, z = 0, s = 0, H = unknowns[0], V = unknowns[1];
   const auto go_to = [&](double end) {
-    const double h = (end - s) / panels;
-    for (int i = 0; i < panels; ++i)
-      for (int g = 0; g < 3; ++g) {
-        const double v = V + weight * h * (i + at[g]), T = std::hypot(H, v);
-        const double slope = stretch(tension, stiffness, T) / T * weights[g] * h;
-        x += slope * H;
-        z += slope * v;
-      }
+    const Eigen::Vector2d by = way(H, V, end - s, tension, stiffness, weight);
+    x += by.x();
+    z += by.y();
     V += weight * (end - s);
     s = end;
   };

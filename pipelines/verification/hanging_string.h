@@ -6,6 +6,14 @@
 /// nothing with the elements.
 namespace nurbeam::verification {
 
+/// The stretch lambda of a string with T = (tension + stiffness (lambda^2 - 1)/2) lambda.
+double string_stretch(double tension, double stiffness, double T);
+
+/// The force on the start of a string that hangs between two points in space under a weight per s along -z:
+/// `chord` is the way from its start to its end. That on its end is this one's opposite, and the weight.
+Eigen::Vector3d pull_of_string(const Eigen::Vector3d& chord, double length, double tension, double stiffness,
+                               double weight);
+
 /// A string on [0, length] of its label s with T = (tension + stiffness (lambda^2 - 1)/2) lambda, lambda the
 /// stretch of s, from (0, 0) to (span, 0).
 struct HangingString {

@@ -32,6 +32,16 @@ inline std::vector<Place> suspended_beam() {
           {1.0, 0.837282, -0.041253, 0.834099, NAN, 1.008379}};
 }
 
+/// Example 2 as a cable without bending stiffness that is drawn at 0.02 EA, to 1e-6 m: linear elements that
+/// move with the body on both sides of it, 400 each, by Runge and Kutta's method; from 50 on differences fall
+/// with the square of the number.
+inline std::vector<Place> suspended_cable() {
+  return {{0.3, 0.189880, -0.017259, 0.190348},
+          {0.6, 0.403736, -0.075725, 0.405855},
+          {0.8, 0.579514, -0.059524, 0.578481},
+          {1.0, 0.734935, -0.064788, 0.729757}};
+}
+
 /// Example 3, to 2e-5 m as drawn, to 1e-4 m straight.
 inline std::vector<Place> semicircle(bool straight) {
   if (straight) return {{0.5, -1.138563, -1.349098, 1.602512}, {1.0, 1.159817, -1.634351, 4.407983}};
@@ -55,6 +65,21 @@ inline std::vector<Swing> pendulum() {
 inline std::vector<Swing> pendulum_with_material_curvature() {
   return {
       {0.2, 0.423709655, -0.220890605}, {0.4, 0.505894707, -0.745921325}, {0.8, 0.441658296, -0.066021437}};
+}
+
+/// The pendulum by CalculiX 2.20 (tests/calculix/pendulum.py): elements B32R, expanded to solids and so
+/// flexible in shear, step 1 ms; with 16 of them, and with 8 for what the mesh leaves.
+inline std::vector<Swing> pendulum_by_calculix() {
+  return {{0.1, 0.476158, -0.049021}, {0.2, 0.423437, -0.220639}, {0.3, 0.527220, -0.641109},
+          {0.4, 0.505992, -0.746603}, {0.5, 0.500224, -0.641037}, {0.6, 0.489526, -0.395011},
+          {0.7, 0.522223, -0.149586}, {0.8, 0.435352, -0.067503}, {0.9, 0.412278, -0.192627},
+          {1, 0.521474, -0.542032}};
+}
+inline std::vector<Swing> pendulum_by_calculix_with_8() {
+  return {{0.1, 0.476147, -0.049009}, {0.2, 0.423428, -0.220626}, {0.3, 0.527242, -0.641154},
+          {0.4, 0.505944, -0.746507}, {0.5, 0.500360, -0.641002}, {0.6, 0.490058, -0.394560},
+          {0.7, 0.522288, -0.147523}, {0.8, 0.437002, -0.067835}, {0.9, 0.411958, -0.192358},
+          {1, 0.522621, -0.542732}};
 }
 
 }  // namespace nurbeam::references

@@ -129,6 +129,7 @@ void VerifyResult::add(ConvergenceTable table, double expected, double tolerance
 
 std::vector<VerifyProblem> verification_problems() {
   std::vector<VerifyProblem> all = statics_problems();
+  append(all, limit_problems());
   append(all, axial_strain_problems());
   append(all, dynamics_problems());
   append(all, invariance_problems());
@@ -141,6 +142,8 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, mechanics_problems());
   append(all, train_problems());
   append(all, energy_problems());
+  append(all, rope_problems());
+  append(all, rope_motion_problems());
   append(all, sliding_problems());
   return all;
 }

@@ -52,6 +52,7 @@ struct VerifyProblem {
 std::vector<VerifyProblem> verification_problems();
 /// Its families.
 std::vector<VerifyProblem> statics_problems();
+std::vector<VerifyProblem> limit_problems();
 std::vector<VerifyProblem> axial_strain_problems();
 std::vector<VerifyProblem> dynamics_problems();
 std::vector<VerifyProblem> sliding_problems();
@@ -65,6 +66,8 @@ std::vector<VerifyProblem> torsion_sliding_problems();
 std::vector<VerifyProblem> mechanics_problems();
 std::vector<VerifyProblem> train_problems();
 std::vector<VerifyProblem> energy_problems();
+std::vector<VerifyProblem> rope_problems();
+std::vector<VerifyProblem> rope_motion_problems();
 
 /// Runs the problems, as many at a time as there are processors, and prints their table to `out` and what is
 /// done so far to `progress`. A problem that throws is one failed row. Returns the exit code: 0, or 1 when a

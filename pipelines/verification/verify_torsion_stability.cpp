@@ -7,6 +7,7 @@
 
 #include "fem/system/assembly.h"
 #include "fem/system/observables.h"
+#include "nurbs/number_text.h"
 #include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
 #include "solver/system/tangent_matrix.h"
@@ -132,35 +133,52 @@ MatrixXd stiffness(const BeamSystem& system, const State& state) {
   return MatrixXd(kkt).topLeftCorner(system.coordinate_count(), system.coordinate_count());
 }
 
+/// The moment M L/EI at which a rod of 2 m with both ends clamped, one free along the axis, leaves its line;
+/// under the tension T L^2/EI.
+double moment_of_a_clamped_rod(int elements, double tension, double lo, double hi) {
+  const double L = 2, EA = tension > 0 ? 1e8 : 1e4;
+  ModelBuilder builder(3);
+  builder.add_beam(straight_rod(L), Rod{EA, 1, 1, 0, 0.8}.properties(), {elements});
+  const BeamSystem system(builder.build());
+  const MeshNode &first = system.mesh().nodes[0].front(), &last = system.mesh().nodes[0].back();
+  std::vector<bool> held(system.coordinate_count(), false);
+  for (const int d : {0, 1, 2}) held[first.r + d] = true;
+  for (const MeshNode* node : {&first, &last}) {
+    for (const int d : {1, 2}) held[node->r + d] = held[node->slope_left + d] = true;
+    held[node->angle_left] = true;
+  }
+  std::vector<int> free;
+  for (int i = 0; i < system.coordinate_count(); ++i)
+    if (!held[i]) free.push_back(i);
+  // Pulled by T = EA e (1 + e/2)(1 + e) along x.
+  const double T = tension / (L * L), strain = T / EA * (1 - 1.5 * T / EA);
+  const auto leaves_its_line = [&](double m) {
+    State state = twisted_state(system, m / L);
+    for (const MeshNode& node : system.mesh().nodes[0]) {
+      state.q[node.r] *= 1 + strain;
+      state.q[node.slope_left] *= 1 + strain;
+    }
+    return negative_eigenvalues(stiffness(system, state)(free, free), 0) > 0;
+  };
+  return critical(leaves_its_line, lo, hi);
+}
+
 VerifyResult greenhill() {
   VerifyResult result;
-  const double L = 2, exact = 8.986818915818;
+  constexpr double exact = 8.986818915818;
   ConvergenceTable table{"the critical moment M L/EI", "elements", {}};
   for (const int elements : {8, 16, 32}) {
-    ModelBuilder builder(3);
-    builder.add_beam(straight_rod(L), Rod{1e4, 1, 1, 0, 0.8}.properties(), {elements});
-    const BeamSystem system(builder.build());
-    const MeshNode &first = system.mesh().nodes[0].front(), &last = system.mesh().nodes[0].back();
-    std::vector<bool> held(system.coordinate_count(), false);
-    for (const int d : {0, 1, 2}) held[first.r + d] = true;
-    for (const MeshNode* node : {&first, &last}) {
-      for (const int d : {1, 2}) held[node->r + d] = held[node->slope_left + d] = true;
-      held[node->angle_left] = true;
-    }
-    std::vector<int> free;
-    for (int i = 0; i < system.coordinate_count(); ++i)
-      if (!held[i]) free.push_back(i);
-    const double computed = critical(
-        [&](double m) {
-          return negative_eigenvalues(stiffness(system, twisted_state(system, m / L))(free, free), 0) > 0;
-        },
-        0.9 * exact, 1.1 * exact);
+    const double computed = moment_of_a_clamped_rod(elements, 0, 0.9 * exact, 1.1 * exact);
     table.rows.emplace_back(elements, std::abs(computed - exact));
     if (elements == 32)
       result.add("M L/EI of a twisted rod, clamped, 32 elements", exact, "tan x = x (Greenhill)", computed,
                  1.8e-5 * exact);
   }
   result.add(std::move(table), 3.8, 0.1, "cubic elements");
+  for (const auto& [tension, moment] : {std::pair{1., 9.13473009}, {10., 10.42885644}, {30., 13.11349975}})
+    result.add("M L/EI under a tension T L^2/EI of " + text_of(tension) + ", 32 elements", moment,
+               "Greenhill's rod with both ends clamped, its determinant",
+               moment_of_a_clamped_rod(32, tension, 0.95 * moment, 1.05 * moment), 6e-5 * moment);
   return result;
 }
 

@@ -20,16 +20,17 @@ from ._core import version as __version__
 from .curves import ClosestPoint, Curve, Curves, read, write
 from .errors import CadError, CaseError, CaseWarning, Error, Finding
 from .loads import Load
-from .model import Beam, Body, Circle, Material, Model, Section, load, schema
-from .results import BeamShape, ConnectorPull, Histories, Mode, Motion, Results, RunError, Snapshot
+from .model import Beam, Body, Circle, IBeam, Material, Model, Pipe, Rectangle, Rope, Section, load, schema
+from .results import BeamShape, ConnectorPull, Extreme, Histories, Mode, Motion, Results, RunError, Snapshot
+from .signals import Signal
 from .simulation import Checkpoint, Simulation
-from .study import Study, study
+from .study import Study, study, vary
 from .system import System
 
 __all__ = [
-    "Model", "load", "Circle", "Section", "Material", "Beam", "Body", "Load", "schema",
+    "Model", "load", "Circle", "Pipe", "Rectangle", "IBeam", "Rope", "Section", "Material", "Beam", "Body", "Load", "schema",
     "Curve", "Curves", "ClosestPoint", "read", "write",
-    "Results", "Histories", "Snapshot", "BeamShape", "Motion", "ConnectorPull", "Mode",
-    "Simulation", "Checkpoint", "System", "study", "Study",
+    "Results", "Extreme", "Histories", "Snapshot", "BeamShape", "Motion", "ConnectorPull", "Mode",
+    "Simulation", "Checkpoint", "Signal", "System", "study", "Study", "vary",
     "Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding",
 ]  # fmt: skip

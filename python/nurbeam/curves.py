@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import CadError, Finding, findings_of, tell, unknown
+from .checked import reduced
+from .errors import CadError, Finding, MissingCadFile, findings_of, tell, unknown
 
 __all__ = ["Curve", "Curves", "ClosestPoint", "read", "write"]
 
@@ -112,6 +113,63 @@ class Curve:
         parts = [_point(p, n) for p, n in ((center, "center"), (start, "start"), (end, "end"), (normal, "normal"))]
         return Curve._of(_core.arc(*parts), name)
 
+    def __reduce__(self) -> Any:
+        """Pickled to the last bit."""
+        return reduced(Curve._of, self._nurbs, self.name, self.facts)
+
+    @staticmethod
+    def circle(center: npt.ArrayLike, radius: float, normal: npt.ArrayLike = (0, 0, 1), name: str = "") -> Curve:
+        """The whole circle about `center` [m], by the right hand about `normal`. Exact: a rational curve. It starts along
+        x from the centre, or along y where the normal is x."""
+        if not radius > 0:
+            raise ValueError(f"the radius of a circle is {radius} m; must be positive")
+        middle, axis = _point(center, "center"), _point(normal, "normal")
+        if not np.linalg.norm(axis) > 0:
+            raise ValueError("the normal of a circle must have a direction")
+        axis = axis / np.linalg.norm(axis)
+        across = np.eye(3)[0] if abs(axis[0]) < 1 - 1e-9 else np.eye(3)[1]
+        across = across - across.dot(axis) * axis
+        start = middle + radius * across / np.linalg.norm(across)
+        return Curve.arc(middle, start, start, axis, name)
+
+    @staticmethod
+    def through(
+        points: npt.ArrayLike,
+        degree: int | None = None,
+        tangents: npt.ArrayLike | None = None,
+        closed: bool = False,
+        name: str = "",
+    ) -> Curve:
+        """The smooth curve through points, (n, 3) in metres and in their order, exact at each; `Curve(points)` takes control
+        points, which a curve goes by. Its parameter is the length of the chords between them. `degree` is 3 unless said
+        otherwise, or less where there are fewer points. `tangents` are directions: (2, 3) at both ends, or (n, 3) at every
+        point. A `closed` curve is smooth where its end meets its start; the first point need not be repeated."""
+        given = _points(points, "points")
+        directions = None if tangents is None else _points(tangents, "tangents")
+        usual = 3 if closed or tangents is not None else max(1, min(3, len(given) - 1))
+        p = usual if degree is None else _whole(degree, "degree")
+        return Curve._of(_core.through(given, p, directions, bool(closed)), name)
+
+    @staticmethod
+    def from_dict(values: Mapping[str, Any]) -> Curve:
+        """The curve of a `to_dict`, or of the "axis" of a case that is an inline NURBS curve."""
+        inner = values.get("nurbs", values)
+        known = {"degree", "knots", "control_points", "weights", "name"}
+        for key in inner:
+            if key not in known:
+                raise KeyError(unknown("key", key, known))
+        for key in ("degree", "knots", "control_points"):
+            if key not in inner:
+                raise KeyError(f'"{key}" is missing; a curve has "degree", "knots" and "control_points"')
+        weights, name = inner.get("weights"), inner.get("name", "")
+        return Curve(inner["control_points"], inner["knots"], inner["degree"], weights, name)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Lists of numbers for JSON, under the keys of an inline NURBS curve of a case: "degree", "knots",
+        "control_points", and "weights" and "name" where there are."""
+        values: dict[str, Any] = dict(self._axis()["nurbs"])
+        return {**values, "name": self.name} if self.name else values
+
     @property
     def degree(self) -> int:
         """Of its pieces between knots."""
@@ -189,6 +247,39 @@ class Curve:
         nurbs, deviation = self._nurbs.cubics(tolerance)
         return Curve._of(nurbs, self.name), deviation
 
+    def join(self, *others: Curve) -> Curve:
+        """This curve and others behind it as one. ValueError where an end is not the next start, to a millionth of the
+        length."""
+        return Curve._of(_core.joined([self._nurbs, *(other._nurbs for other in others)]), self.name)
+
+    def split_at(self, parameter: float | Sequence[float]) -> list[Curve]:
+        """Its pieces between these parameters; each keeps the parameters of the curve."""
+        at = [float(each) for each in np.atleast_1d(np.asarray(parameter, dtype=float))]
+        return [Curve._of(piece, self.name) for piece in self._nurbs.split_at(at)]
+
+    def transformed(self, matrix: npt.ArrayLike) -> Curve:
+        """The curve moved by an affine map, (3, 3), (3, 4) or (4, 4): turned by its first three columns, then shifted by
+        the fourth [m]."""
+        given = np.asarray(matrix, dtype=float)
+        if given.shape == (4, 4) and not np.array_equal(given[3], [0, 0, 0, 1]):
+            raise ValueError(f"the last row of the matrix is {given[3]}; must be [0, 0, 0, 1]")
+        if given.shape not in ((3, 3), (3, 4), (4, 4)):
+            raise ValueError(f"the matrix has the shape {given.shape}; expected (3, 3), (3, 4) or (4, 4)")
+        moved = np.zeros((3, 4))
+        moved[:, : given.shape[1]] = given[:3]
+        return Curve._of(self._nurbs.moved(moved), self.name)
+
+    def curvature(self, parameter: npt.ArrayLike) -> Array:
+        """At parameters, one number or an array of them [1/m]."""
+        d = self.derivatives(parameter, 2)
+        first, second = d[..., 1, :], d[..., 2, :]
+        return np.asarray(np.linalg.norm(np.cross(first, second), axis=-1) / np.linalg.norm(first, axis=-1) ** 3)
+
+    def parameter_at(self, length: npt.ArrayLike) -> Array:
+        """The parameters where the curve is so long from its start on [m]; one number or an array of them."""
+        s = np.asarray(length, dtype=float)
+        return np.array([self._nurbs.parameter_at(float(each)) for each in s.ravel()]).reshape(s.shape)[()]
+
     def reversed(self) -> Curve:
         """The same curve run through backwards."""
         return Curve._of(self._nurbs.reversed(), self.name, self.facts)
@@ -258,13 +349,20 @@ def read(file: str | os.PathLike[str]) -> Curves:
     """All curves of a STEP, IGES, DXF or BREP file. What each is in its file (layer, colour, part, radius of the pipe
     whose centre line it is, ...) stands in `curve.facts`.
 
-    CadError where the file cannot be read; warnings of single curves become Python's."""
+    CadError where the file cannot be read, also a FileNotFoundError where it is not there; warnings of single curves become Python's."""
     curves, unit, plain = _core.read_curves(os.fspath(file))
     findings = findings_of(plain)
     if any(finding.severity == "error" for finding in findings):
-        raise CadError(findings)
+        raise (CadError if os.path.exists(file) else MissingCadFile)(findings)
     tell(findings)
     return Curves((Curve._of(nurbs, facts["name"], facts) for nurbs, facts in curves), unit, findings)
+
+
+def _check_name(name: str, number: int) -> None:
+    if len(name) > 250:
+        raise ValueError(f"the name of curve {number} has {len(name)} characters: {name[:40]!r}...; at most 250")
+    if barred := [c for c in name if ord(c) < 32 or ord(c) == 127]:
+        raise ValueError(f"the name of curve {number} is {name!r}; it must not hold {barred[0]!r}, a control character")
 
 
 def write(
@@ -276,13 +374,15 @@ def write(
     """Writes curves to a file whose extension says its format: .step, .iges, .dxf or .brep; each exactly, as one B-spline
     curve under its name, in the unit ("mm", "m" or "inch"). `schema` is that of STEP: "ap214" or "ap242".
 
-    CadError where it cannot be written, ValueError for an unknown extension or unit."""
+    CadError where it cannot be written, ValueError for an unknown extension or unit, and for a name that no file holds:
+    of more than 250 characters, or with a line break or another control character."""
     if schema not in ("ap214", "ap242"):
         raise ValueError(unknown("schema", schema, ["ap214", "ap242"]))
     several = [curves] if isinstance(curves, Curve) else list(curves)
     for i, each in enumerate(several, 1):
         if not isinstance(each, Curve):
             raise TypeError(f"curve {i} is {each!r}; expected a Curve")
+        _check_name(each.name, i)
     named = [(curve.name or f"curve {i}", curve._nurbs) for i, curve in enumerate(several, 1)]
     findings = findings_of(_core.write_curves(os.fspath(file), named, unit, schema))
     if any(finding.severity == "error" for finding in findings):

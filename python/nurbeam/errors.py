@@ -7,6 +7,8 @@ import sys
 import warnings
 from typing import Any, Dict, Iterable, Mapping, NamedTuple, Sequence, TypeVar
 
+from .checked import reduced
+
 T = TypeVar("T")
 
 __all__ = ["Error", "CaseError", "CadError", "CaseWarning", "Finding"]
@@ -40,7 +42,7 @@ class CaseError(Error, ValueError):
 
     def __reduce__(self) -> Any:
         """Pickled as its findings: other processes raise it whole."""
-        return type(self), (self.findings,)
+        return reduced(type(self), self.findings)
 
 
 class CadError(Error, OSError):
@@ -52,7 +54,15 @@ class CadError(Error, OSError):
 
     def __reduce__(self) -> Any:
         """Pickled as its findings: other processes raise it whole."""
-        return type(self), (self.findings,)
+        return reduced(type(self), self.findings)
+
+
+class MissingCase(CaseError, FileNotFoundError):
+    """A case file that is not there."""
+
+
+class MissingCadFile(CadError, FileNotFoundError):
+    """A CAD file that is not there."""
 
 
 class CaseWarning(UserWarning):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import json
 import math
 import os
@@ -14,17 +15,19 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .checked import reduced
 from .curves import Curve
-from .errors import CaseError, Error, Finding, findings_of, tell, unknown
+from .errors import CaseError, Error, Finding, MissingCase, findings_of, tell, unknown
 from .loads import Load
 from .progress import progress_bar
 from .results import Results, RunError
+from .signals import Signal
 from .simulation import Checkpoint, Simulation
 
 if TYPE_CHECKING:
     from .system import System
 
-__all__ = ["Model", "load", "Circle", "Section", "Material", "Beam", "Body", "schema"]
+__all__ = ["Model", "load", "Circle", "Pipe", "Rectangle", "IBeam", "Rope", "Section", "Material", "Beam", "Body", "schema"]
 
 Quantity = Union[float, str]
 """A number in SI units, or a text with a unit: "5 mm"."""
@@ -43,12 +46,83 @@ class Circle(Section):
     """A round solid section: `Circle(radius="6 mm")`."""
 
     def __init__(self, radius: Quantity, **keys: Any):
+        _check_size("radius", radius)
         super().__init__(radius=radius, **keys)
+
+
+def _check_size(key: str, value: Any, least: float = 0, including: bool = False) -> None:
+    """Numbers are checked where they are written; texts with a unit by the case."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.number, str)):
+        raise TypeError(f"{key} is {value!r}; expected a number in metres or a text with a unit (\"5 mm\")")
+    if not isinstance(value, str) and not (value >= least if including else value > least):
+        raise ValueError(f"{key} is {value} m; must be greater than {least}{' or equal' if including else ''}")
+
+
+class Pipe(Section):
+    """A pipe: `Pipe(radius="24.15 mm", wall="3.2 mm")`, of its outer radius and its wall, or of `bore`, the inner radius.
+    `bends="flexible"`: bends are softer, as the section becomes oval there."""
+
+    def __init__(self, radius: Quantity, wall: Quantity | None = None, bore: Quantity | None = None, **keys: Any):
+        _check_size("radius", radius)
+        if (wall is None) == (bore is None):
+            raise TypeError("give either wall or bore, the inner radius")
+        if wall is not None:
+            _check_size("wall", wall)
+            bore = _difference(radius, wall)
+        assert bore is not None
+        _check_size("bore", bore, including=True)
+        super().__init__(radius=radius, bore=bore, **keys)
+
+
+def _difference(a: Quantity, b: Quantity) -> Quantity:
+    if isinstance(a, str) and isinstance(b, str):
+        (x, unit), (y, other) = (_number_and_unit(each) for each in (a, b))
+        if unit == other:
+            return f"{x - y:.15g} {unit}"
+    if isinstance(a, str) or isinstance(b, str):
+        raise TypeError(f"radius is {a!r} and wall {b!r}; give both as numbers in metres or in one unit, or bore")
+    return a - b
+
+
+def _number_and_unit(text: str) -> tuple[float, str]:
+    match = re.fullmatch(r"\s*([-+.\deE]+)\s*(\S.*?)\s*", text)
+    if not match:
+        raise ValueError(f'{text!r} is no size; expected a number and a unit, as in "5 mm"')
+    return float(match[1]), match[2]
+
+
+class Rectangle(Section):
+    """A rectangle: `Rectangle(width=0.1, height="0.2 m")`; the height lies in the plane of a planar model, and along the
+    section's y axis."""
+
+    def __init__(self, width: Quantity, height: Quantity, **keys: Any):
+        _check_size("width", width)
+        _check_size("height", height)
+        super().__init__(rectangle=[width, height], **keys)
+
+
+class IBeam(Section):
+    """An I, upright along the section's y axis: `IBeam(height="200 mm", width="100 mm", flange="8.5 mm", web="5.6 mm")`."""
+
+    def __init__(self, height: Quantity, width: Quantity, flange: Quantity, web: Quantity, **keys: Any):
+        sizes = {"height": height, "width": width, "flange": flange, "web": web}
+        for key, value in sizes.items():
+            _check_size(key, value)
+        super().__init__(i_section=sizes, **keys)
+
+
+class Rope(Section):
+    """A wire rope: `Rope(diameter="16 mm", metallic_area="110 mm^2")`; `wires`, of which each bends by itself."""
+
+    def __init__(self, diameter: Quantity, metallic_area: Quantity, wires: int | None = None, **keys: Any):
+        _check_size("diameter", diameter)
+        rope = {"diameter": diameter, "metallic_area": metallic_area, "wires": wires}
+        super().__init__(rope={key: value for key, value in rope.items() if value is not None}, **keys)
 
 
 class Material(dict[str, Any]):
     """A material by the keys of the case file: `Material(density=7850, youngs_modulus="210 GPa")`; `damping` [s],
-    `thermal_expansion` [1/K], `shear_modulus` [Pa], `poissons_ratio`."""
+    `thermal_expansion` [1/K], `shear_modulus` [Pa], `poissons_ratio`, `law` ("green", "hooke" or rows)."""
 
     def __init__(self, density: Quantity, youngs_modulus: Quantity, **keys: Any):
         super().__init__(density=density, youngs_modulus=youngs_modulus, **keys)
@@ -118,6 +192,17 @@ def _place(at: Any) -> Any:
     return {"length": at} if np.ndim(at) == 0 else {"near": at}
 
 
+def _grip(end: Any) -> Any:
+    """The end of a connector as the case file has it."""
+    if isinstance(end, Body):
+        return {"body": end.name}
+    if isinstance(end, Mapping):
+        return {key: _place(value) if key == "at" else value for key, value in end.items()}
+    if isinstance(end, str):
+        return {"body": end}
+    return {"point": end}
+
+
 def _axis(axis: Any) -> Any:
     if isinstance(axis, Curve):
         return axis._axis()
@@ -146,13 +231,18 @@ class Model:
     def __init__(self, gravity: npt.ArrayLike | None = None, name: str = "model", **keys: Any):
         self.case: dict[str, Any] = {"nurbeam": 1, "name": name, "beams": [], "analysis": {}}
         """The case as JSON has it, to read and to change."""
+        known = _case_keys()
+        for key in keys:
+            if key not in known:
+                raise TypeError(unknown("key of a model", key, known))
         if gravity is not None:
             self.case["gravity"] = _json(np.asarray(gravity, dtype=float) if not _has_text(gravity) else gravity)
         self.case.update(_json(keys))
         self._file = name
         self._folder: str | None = None  # of the file that it was loaded from; None: the working directory
-        self._laws: list[tuple[dict[str, Any], Force]] = []
-        self._motions: list[MotionLaw] = []
+        self._laws: list[tuple[dict[str, Any], Force | Signal]] = []
+        self._motions: list[MotionLaw | Signal] = []
+        self._wind: Signal | None = None
 
     @property
     def name(self) -> str:
@@ -191,7 +281,7 @@ class Model:
         return Beam(named)
 
     def add_body(self, name: str, mass: Quantity, roll_inertia: Quantity | None = None, **keys: Any) -> Body:
-        """A point mass, which needs a sliding joint."""
+        """A point mass, which a sliding joint or a connector holds."""
         self.add("bodies", name=name, mass=mass, roll_inertia=roll_inertia, **keys)
         return Body(name)
 
@@ -205,9 +295,10 @@ class Model:
         axis: npt.ArrayLike | None = None,
         **keys: Any,
     ) -> None:
-        """Holds a place of a beam: "pinned", "clamped" or "fork". `motion` moves it from its drawn place: rows
-        [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or this with its first
-        two derivatives; else these are taken by differences over 0.1 ms, also just before time 0."""
+        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork". `motion` moves it from
+        its drawn place: rows [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or
+        this with its first two derivatives; else these are taken by differences over 0.1 ms, also just before time 0.
+        A `Signal` of three numbers is its velocity [m/s]."""
         by = self._by_function(motion)
         self.add("supports", beam=beam, at=at, type=type, name=name, axis=axis, **by, **keys)
 
@@ -217,14 +308,15 @@ class Model:
         beam: Beam | str,
         at: Place,
         speed: Quantity | None = None,
-        motion: Mapping[str, Any] | MotionLaw | None = None,
+        motion: Mapping[str, Any] | MotionLaw | Signal | None = None,
         slope: str | None = None,
         at_beam_end: str | None = None,
         **keys: Any,
     ) -> None:
         """Puts a body on a beam, to slide along it. `motion` prescribes how: {"speed": ...}, {"table": rows [time, s]}, or a
         smooth function motion(t) that returns the reference arc length from the beam's start [m], or this with its first
-        two derivatives; else these are taken by differences over 0.1 ms, also just before time 0. `slope`: "continuous" or "discontinuous"; `at_beam_end`: "leave" or "stop"."""
+        two derivatives; else these are taken by differences over 0.1 ms, also just before time 0. A `Signal` is its speed
+        [m/s]. `slope`: "automatic", "continuous" or "discontinuous"; `at_beam_end`: "leave" or "stop"."""
         self.add(
             "sliding_joints",
             body=body, beam=beam, at=at, speed=speed, slope=slope, at_beam_end=at_beam_end,
@@ -243,6 +335,30 @@ class Model:
         """Runs a beam through a ring without mass and friction that is fixed in space: at `position` [m], or where the beam
         is drawn. `equilibrium`: "held" keeps the place `at` in it until the motion starts, "free" finds its rest."""
         self.add("eyelets", name=name, beam=beam, at=at, position=position, equilibrium=equilibrium, **keys)
+
+    def add_connector(
+        self,
+        name: str,
+        type: str,
+        start: Mapping[str, Any] | Body | npt.ArrayLike,
+        end: Mapping[str, Any] | Body | npt.ArrayLike,
+        **keys: Any,
+    ) -> None:
+        """Connects two bodies, places of beams or points: a "spring", "rod", "tension-only" or what else the case file
+        has. An end is a body, {"beam": ..., "at": ...}, or a point in space (3,) [m]. Keys as in the case file:
+        `stiffness`, `damping`, `length`, ..."""
+        self.add("connectors", name=name, type=type, **{"from": _grip(start), "to": _grip(end)}, **keys)
+
+    def add_rod(
+        self,
+        name: str,
+        start: Mapping[str, Any] | Body | npt.ArrayLike,
+        end: Mapping[str, Any] | Body | npt.ArrayLike,
+        length: Quantity | None = None,
+        **keys: Any,
+    ) -> None:
+        """Keeps two ends at one distance, `length` [m], or as drawn: `add_connector` of the type "rod"."""
+        self.add_connector(name, "rod", start, end, length=length, **keys)
 
     def add_joint(
         self,
@@ -284,7 +400,7 @@ class Model:
 
     def add_force(
         self,
-        law: Force,
+        law: Force | Signal,
         body: Body | str | None = None,
         beam: Beam | str | None = None,
         at: Place | None = None,
@@ -299,8 +415,9 @@ class Model:
         knows them it may return (force, by_position, by_velocity): derivatives of all components by all others,
         (3 points, 3 points); else, or where they are None, they are taken by differences, which calls it 6 times for
         each point. It must have no memory: a step may be tried several times. What it raises ends the run and comes
-        out unchanged. `spatial`: it may act out of the plane in which a model lies by itself; the model is then one in
-        space. Buckling does not multiply it, and modes about the drawing leave it out, as they do loads."""
+        out unchanged. A `Signal` of three numbers in the place of the function is the force [N] itself. `spatial`: it may
+        act out of the plane in which a model lies by itself; the model is then one in space. Buckling does not multiply it,
+        and modes about the drawing leave it out, as they do loads."""
         if not callable(law):
             raise TypeError(f"a law is a function law(t, position, velocity), not {law!r}")
         if points is None:
@@ -309,6 +426,13 @@ class Model:
             raise TypeError("give either points, or body or beam and at")
         places = [{k: _place(v) if k == "at" else v for k, v in point.items()} for point in points]
         self._laws.append((_json({"points": places, "spatial": spatial}), law))
+
+    def set_wind(self, wind: Signal | None) -> None:
+        """Bodies with a drag area feel a wind [m/s] that a signal of three numbers says, in place of that of the case; its
+        `air` must have a density. None: that of the case. The energies book its work as that of a force."""
+        if wind is not None and not isinstance(wind, Signal):
+            raise TypeError(f"the wind is {wind!r}; expected a Signal of three numbers, or None")
+        self._wind = wind
 
     def set(self, path: str, value: Any) -> None:
         """Sets one value of the case by its path, as `--set` does: `model.set("beams[0].section.radius", "7 mm")`, also
@@ -321,6 +445,10 @@ class Model:
             raise KeyError(problem)
         _put(self.case, json.loads(text), [int(p) if p.isdigit() else p for p in re.findall(r"[^.\[\]]+", place)], asked)
 
+    def __reduce__(self) -> Any:
+        """Pickled as it is, its functions by their names."""
+        return reduced(_with, type(self), self.__dict__)
+
     def copy(self) -> Model:
         """Another model like this, which may be changed by itself."""
         other = Model.__new__(Model)
@@ -329,13 +457,14 @@ class Model:
         other._folder = self._folder
         other._laws = list(self._laws)
         other._motions = list(self._motions)
+        other._wind = self._wind
         return other
 
     def save(self, file: str | os.PathLike[str]) -> None:
         """Writes the case to a file, for the command line; files that it names are then relative to the new one. Error where
         it has forces or motions by functions, which no file holds."""
-        if self._laws or self._motions:
-            raise Error("the model has forces or motions by functions, which a case file cannot hold")
+        if self._laws or self._motions or self._wind:
+            raise Error("the model has forces or motions by functions or signals, which a case file cannot hold")
         self._require_finite(self.case)
         folder, target = self._folder or os.getcwd(), os.path.dirname(os.path.abspath(file))
         case = copy.deepcopy(self.case)
@@ -386,8 +515,17 @@ class Model:
         """What needs a model alone takes the analysis that asks for least where there is none."""
         return analysis or ({} if self.case.get("analysis") else {"type": "static"})
 
-    def _functions(self) -> tuple[list[Force], list[MotionLaw]]:
-        return [function for _, function in self._laws], list(self._motions)
+    def _functions(self) -> tuple[list[Any], list[Any], list[Any]]:
+        def core(function: Any) -> Any:
+            return function._core if isinstance(function, Signal) else function
+
+        laws, wind = [core(function) for _, function in self._laws], [self._wind._core] if self._wind else []
+        return laws, [core(motion) for motion in self._motions], wind
+
+    def _signals(self) -> list[Signal]:
+        """Each once, in the order of forces, motions and the wind."""
+        used = [*(law for _, law in self._laws), *self._motions, self._wind]
+        return list(dict.fromkeys(each for each in used if isinstance(each, Signal)))
 
     def _by_function(self, motion: Any) -> dict[str, Any]:
         """The keys of a motion, which may be a function."""
@@ -444,7 +582,7 @@ class Model:
             tell(findings_of(report["warnings"]))
             return results
         with progress_bar(built, progress) as told:
-            return Simulation(_core.LiveRun.begin(built, self._functions(), None), built).run(told)
+            return self._begin(built, None).run(told)
 
     def _run_into(
         self, built: _core.BuiltCase, out: str | os.PathLike[str], resume: bool, progress: bool | None
@@ -487,7 +625,16 @@ class Model:
             raise TypeError(f"start is {start!r}; expected a Checkpoint: simulation.checkpoint or Checkpoint.load(file)")
         if start is not None and built.analysis != "dynamic":
             raise ValueError(f'no motion goes on in an analysis of the type "{built.analysis}"; leave start out')
-        return Simulation(_core.LiveRun.begin(built, self._functions(), start._core if start else None), built)
+        return self._begin(built, start)
+
+    def _begin(self, built: _core.BuiltCase, start: Checkpoint | None) -> Simulation:
+        signals = self._signals()
+        states = start._signals if start else [None] * len(signals)
+        if len(states) != len(signals):
+            raise ValueError(f"start: the checkpoint is of a model with {len(states)} signals, this one has {len(signals)}")
+        for signal, state in zip(signals, states):
+            signal._begin(state)
+        return Simulation(_core.LiveRun.begin(built, self._functions(), start._core if start else None), built, signals)
 
     def system(self, **analysis: Any) -> System:
         """The equations of motion of the model as drawn; those of other states are `simulation.system`."""
@@ -495,9 +642,25 @@ class Model:
 
         return System(_core.Equations.drawn(self._built(self._or_static(analysis))[0], self._functions()))
 
+    def _repr_html_(self) -> str:
+        """In a notebook: the model as drawn, in the 3-D view of the report page."""
+        built = self._built(self._or_static({}))[0]
+        return Results._of(_core.drawn(built), {"status": "done"}, built.summary())._repr_html_()
+
     def __repr__(self) -> str:
         parts = [f"{len(v)} {k}" for k, v in self.case.items() if isinstance(v, list) and v]
         return f'<Model "{self.name}": {", ".join(parts) or "empty"}>'
+
+
+def _with(kind: type[Model], state: dict[str, Any]) -> Model:
+    model = kind.__new__(kind)
+    model.__dict__.update(state)
+    return model
+
+
+@functools.lru_cache(maxsize=None)
+def _case_keys() -> frozenset[str]:
+    return frozenset(json.loads(_core.schema())["properties"])
 
 
 def _has_text(value: Any) -> bool:
@@ -533,12 +696,13 @@ def _put(case: Any, changed: Any, place: Sequence[Any], value: Any) -> None:
 
 def load(file: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Model:
     """The model of a case file, with values changed as by `--set`: `load("zipline.json", set={"analysis.end_time": 1})`.
-    Files that it names are relative to its folder. CaseError where it is no JSON; the rest is checked when it is run."""
+    Files that it names are relative to its folder. CaseError where it is no JSON,
+    also a FileNotFoundError where it is not there; the rest is checked when it is run."""
     overrides = [f"{path}={json.dumps(_json(value))}" for path, value in (set or {}).items()]
     text, plain = _core.case_json(os.fspath(file), overrides)
     findings = findings_of(plain)
     if not text:
-        raise CaseError(findings)
+        raise (CaseError if os.path.exists(file) else MissingCase)(findings)
     case = json.loads(text)
     model = Model.__new__(Model)
     model.case = case if isinstance(case, dict) else {"": case}
@@ -546,6 +710,7 @@ def load(file: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> 
     model._folder = os.path.dirname(os.path.abspath(file))
     model._laws = []
     model._motions = []
+    model._wind = None
     return model
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ import numpy.typing as npt
 from .drawing import plane_of
 
 if TYPE_CHECKING:
+    import matplotlib.animation
     import matplotlib.axes
 
 __all__: list[str] = []
@@ -56,10 +57,14 @@ def histories(
     return ax
 
 
-def shapes(pictures: Sequence[Picture], ax: matplotlib.axes.Axes | None) -> matplotlib.axes.Axes:
-    """At times, the later the darker."""
+def shapes(
+    pictures: Sequence[Picture], ax: matplotlib.axes.Axes | None, drawn: Sequence[Array] = ()
+) -> matplotlib.axes.Axes:
+    """At times, the later the darker; what is drawn in grey."""
     axes, names = plane_of(np.concatenate([line for picture in pictures for line in picture.beams]))
     ax = _axes(ax)
+    for k, line in enumerate(drawn):
+        ax.plot(*(line @ axes.T).T, color="0.7", linewidth=1, label="drawn" if k == 0 else None)
     for i, picture in enumerate(pictures):
         colour = (0.1, 0.3, 0.5, 0.3 + 0.7 * (i + 1) / len(pictures))
         for k, line in enumerate(picture.beams):
@@ -71,6 +76,44 @@ def shapes(pictures: Sequence[Picture], ax: matplotlib.axes.Axes | None) -> matp
     ax.axis("equal")
     ax.legend()
     return ax
+
+
+def animation(pictures: Sequence[Picture], fps: float) -> matplotlib.animation.FuncAnimation:
+    """One picture after the other."""
+    import matplotlib.animation
+    import matplotlib.pyplot
+
+    every = np.concatenate([line for picture in pictures for line in [*picture.beams, *(b[None] for b in picture.bodies)]])
+    axes, names = plane_of(every)
+    figure, ax = matplotlib.pyplot.subplots()
+    flat = every @ axes.T
+    margin = 0.05 * float(np.max(np.ptp(flat, axis=0))) or 1.0
+    (left, low), (right, high) = flat.min(axis=0) - margin, flat.max(axis=0) + margin
+    ax.set(xlim=(left, right), ylim=(low, high), xlabel=f"{names[0]} [m]", ylabel=f"{names[1]} [m]", aspect="equal")
+    lines = [ax.plot([], [], color="#1f6f8b")[0] for _ in pictures[0].beams]
+    dots = [ax.plot([], [], "o", color="#1c2a3a")[0] for _ in pictures[0].bodies]
+
+    def show(i: int) -> list[Any]:
+        for line, points in zip(lines, pictures[i].beams):
+            line.set_data(*(points @ axes.T).T)
+        for dot, position in zip(dots, pictures[i].bodies):
+            dot.set_data(*(position @ axes.T)[:, None])
+        ax.set_title(f"{pictures[i].time:.4g} s")
+        return [*lines, *dots]
+
+    return matplotlib.animation.FuncAnimation(figure, show, frames=len(pictures), interval=1000 / fps)
+
+
+def save_animation(shown: matplotlib.animation.FuncAnimation, file: str, fps: float) -> None:
+    """As .gif, .mp4 or .html, by the ending. ValueError for another one."""
+    ending = file.rpartition(".")[2].lower()
+    if ending == "html":
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(shown.to_jshtml(fps=fps))
+    elif ending in ("gif", "mp4"):
+        shown.save(file, writer="pillow" if ending == "gif" else "ffmpeg", fps=fps)
+    else:
+        raise ValueError(f'the ending of "{file}" names no animation; known are .gif .mp4 .html')
 
 
 def along(

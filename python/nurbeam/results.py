@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+import html
 import json
 import operator
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Dict, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .checked import reduced
 from .curves import Curve, write
-from .errors import ByName, Error, unknown
+from .errors import ByName, Error, findings_of, tell, unknown
+from .pages import page_of
 
 if TYPE_CHECKING:
+    import matplotlib.animation
     import matplotlib.axes
     import pandas
     import xarray
 
-__all__ = ["Results", "RunError", "Histories", "Snapshot", "BeamShape", "Motion", "Mode"]
+__all__ = ["Results", "RunError", "Extreme", "Histories", "Snapshot", "BeamShape", "Motion", "Mode"]
 
 Array = npt.NDArray[np.float64]
 
@@ -99,6 +103,35 @@ class ConnectorPull(NamedTuple):
     force: float
 
 
+class Extreme(NamedTuple):
+    """The largest magnitude of a quantity in a run; of the least axial force the least value."""
+
+    value: float
+    unit: str
+    s: float
+    """Reference arc length of the place on its beam [m]; NaN where there is none"""
+    time: float
+    """[s]; of a static analysis the load factor"""
+
+
+class RunReport(Dict[str, Any]):
+    """How a run ended, and what it took; of a directory what its run.json holds. Called with a file it puts the report page
+    of the run there: `results.report("x.html")`."""
+
+    def __init__(self, facts: Mapping[str, Any], page: Callable[[], str] | None = None):
+        super().__init__(facts)
+        self._page = page
+
+    def __call__(self, file: str | os.PathLike[str]) -> None:
+        if self._page is None:
+            raise Error("this report is not that of results; ask results.report")
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(self._page())
+
+    def __reduce__(self) -> Any:
+        return RunReport, (dict(self),)
+
+
 class Mode(NamedTuple):
     """One mode of vibration, or of buckling."""
 
@@ -120,6 +153,10 @@ class BeamShape:
         self._index = index
         self.name = name
 
+    def __reduce__(self) -> Any:
+        """Pickled with its snapshot."""
+        return reduced(BeamShape, self._frame, self._index, self.name)
+
     @property
     def length(self) -> float:
         """Deformed [m]."""
@@ -128,12 +165,12 @@ class BeamShape:
     @property
     def curve(self) -> Curve:
         """The deformed axis as one exact NURBS curve with few control points."""
-        return Curve._of(self._frame.curve(self._index, False), self.name)
+        return Curve._of(self._frame.curve(self._index, False, 1), self.name)
 
     @property
     def material_curve(self) -> Curve:
         """The same, whose parameter at the elements' ends is the reference arc length [m]."""
-        return Curve._of(self._frame.curve(self._index, True), self.name)
+        return Curve._of(self._frame.curve(self._index, True, 1), self.name)
 
     @property
     def nodes(self) -> Array:
@@ -153,7 +190,11 @@ class BeamShape:
     @property
     def control_points(self) -> Array:
         """(elements, 4, 4): homogeneous control points (w x, w y, w z, w) of each element's rational cubic [m]."""
-        return self._frame.control_points(self._index)
+        return self._frame.control_points(self._index, 1)
+
+    def exaggerated(self, factor: float) -> Curve:
+        """The axis with displacements from the drawing times `factor`: 1 gives `curve`, 0 the drawing."""
+        return Curve._of(self._frame.curve(self._index, False, factor), self.name)
 
     @property
     def s(self) -> Array:
@@ -176,11 +217,12 @@ class BeamShape:
         values: Array = sampled[name]
         return values.reshape((-1,) + values.shape[2:])
 
-    def points(self, per_element: int = 8) -> Array:
-        """(n, 3) points along the deformed beam [m], so many for each element, and its end."""
+    def points(self, per_element: int = 8, exaggerate: float = 1) -> Array:
+        """(n, 3) points along the deformed beam [m], so many for each element, and its end; with displacements from the
+        drawing times `exaggerate`, of which 0 gives the drawing."""
         u = np.linspace(0, 1, per_element, endpoint=False)
         basis = np.stack([(1 - u) ** 3, 3 * u * (1 - u) ** 2, 3 * u**2 * (1 - u), u**3])
-        cubics = self.control_points
+        cubics = self._frame.control_points(self._index, exaggerate)
         rows = np.einsum("ku,ekh->euh", basis, cubics).reshape(-1, 4)
         rows = np.concatenate([rows, cubics[-1, -1:]])
         return np.asarray(rows[:, :3] / rows[:, 3:])
@@ -199,6 +241,10 @@ class Snapshot:
 
     def __init__(self, frame: _core.Frame):
         self._frame = frame
+
+    def __reduce__(self) -> Any:
+        """Pickled without the other snapshots of its run."""
+        return reduced(Snapshot, self._frame)
 
     @property
     def time(self) -> float:
@@ -235,9 +281,12 @@ class Snapshot:
             raise KeyError(unknown("history", name, values))
         return values[name]
 
-    def export(self, file: str | os.PathLike[str], unit: str = "mm", schema: str = "ap214") -> None:
-        """Writes the deformed axes to a CAD file, as `nurbeam.write` does."""
-        write(file, [beam.curve for beam in self.beams.values()], unit, schema)
+    def export(
+        self, file: str | os.PathLike[str], unit: str = "mm", schema: str = "ap214", exaggerate: float = 1
+    ) -> None:
+        """Writes the deformed axes to a CAD file, as `nurbeam.write` does, with displacements from the drawing times
+        `exaggerate`."""
+        write(file, [beam.exaggerated(exaggerate) for beam in self.beams.values()], unit, schema)
 
     def __repr__(self) -> str:
         return f"<Snapshot at {self.time:.6g} s of {', '.join(self.beams)}>"
@@ -258,21 +307,26 @@ class Results(Sequence[Snapshot]):
     def __init__(self, directory: str | os.PathLike[str]):
         self.directory: Path | None = Path(directory)
         """Where they stand; None of a run that has written nothing."""
+        summary = self.directory / "run.json"
         try:
             self._recording = _core.read_results(os.fspath(directory))
-        except RuntimeError as problem:
+            report = json.loads(_core.checked_json(os.fspath(summary))) if summary.exists() else {}
+        except (RuntimeError, ValueError) as problem:
             raise Error(str(problem)) from None
-        summary = self.directory / "run.json"
-        self.report: dict[str, Any] = json.loads(summary.read_text()) if summary.exists() else {}
-        """How the run ended, and what it took; of a directory what its run.json holds."""
+        tell(findings_of(_core.missing_checksum(os.fspath(directory))))
+        self._summary = ""
+        self.report = RunReport(report, self._page)
+        """How the run ended, and what it took; of a directory what its run.json holds. `results.report("x.html")` puts its
+        report page into a file."""
         self._histories: Histories | None = None
 
     @classmethod
-    def _of(cls, recording: _core.Recording, report: Mapping[str, Any]) -> Results:
+    def _of(cls, recording: _core.Recording, report: Mapping[str, Any], summary: str = "") -> Results:
         results = cls.__new__(cls)
         results.directory = None
         results._recording = recording
-        results.report = dict(report)
+        results._summary = summary
+        results.report = RunReport(report, results._page)
         results._histories = None
         return results
 
@@ -328,6 +382,19 @@ class Results(Sequence[Snapshot]):
         ]
 
     @property
+    def extremes(self) -> dict[str, Extreme]:
+        """What stands out in the run, over all its steps and inside elements: `results.extremes["cable.stress.max"].value`."""
+        nan = float("nan")
+        found = {
+            one["quantity"]: Extreme(
+                nan if one["value"] is None else one["value"], one["unit"],
+                nan if one["s [m]"] is None else one["s [m]"], one["time [s]"]
+            )
+            for one in self.report.get("extremes", [])
+        }  # fmt: skip
+        return ByName("extreme", found)
+
+    @property
     def events(self) -> list[dict[str, Any]]:
         """What happened between the steps, in order: changes of the mesh, bodies that leave, stop or are released, each
         with its `time` [s], `kind`, `beam`, `body` and place `s` [m] on the beam; of a directory more (`report`)."""
@@ -340,8 +407,8 @@ class Results(Sequence[Snapshot]):
     def __reduce__(self) -> Any:
         """Results of a directory are pickled as the place where they stand, those in memory as what they hold."""
         if self.directory is None:
-            return Results._of, (self._recording, self.report)
-        return Results, (self.directory.absolute(),)
+            return reduced(Results._of, self._recording, dict(self.report), self._summary)
+        return reduced(Results, os.fspath(self.directory.absolute()))
 
     def __copy__(self) -> Results:
         copied = Results.__new__(Results)
@@ -351,13 +418,21 @@ class Results(Sequence[Snapshot]):
     def __len__(self) -> int:
         return len(self._recording)
 
-    def __getitem__(self, key: Any) -> Any:
+    @overload
+    def __getitem__(self, key: int) -> Snapshot: ...
+    @overload
+    def __getitem__(self, key: slice) -> list[Snapshot]: ...
+    @overload
+    def __getitem__(self, key: str) -> Array: ...
+    def __getitem__(self, key: int | slice | str) -> Snapshot | list[Snapshot] | Array:
+        if isinstance(key, str):
+            return self.histories[key]
         if isinstance(key, slice):
             return [self[i] for i in range(*key.indices(len(self)))]
         try:
             number = operator.index(key)
         except TypeError:
-            raise TypeError(f"the number of a snapshot is {key!r}; expected a whole number or a slice") from None
+            raise TypeError(f"the number of a snapshot is {key!r}; expected a whole number, a slice or the name of a history") from None
         i = number + len(self) if number < 0 else number
         if not 0 <= i < len(self):
             raise IndexError(f"there is no snapshot {key}; there are {len(self)}, counted from 0")
@@ -371,7 +446,45 @@ class Results(Sequence[Snapshot]):
         if len(times) == 0 or not times[0] * (1 - 1e-9) <= time <= times[-1] * (1 + 1e-9):
             span = f"from {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else "none"
             raise ValueError(f"time {time} s is not among those of the run, {span}")
-        return self[int(np.argmin(np.abs(times - time)))]  # type: ignore[no-any-return]
+        return self[int(np.argmin(np.abs(times - time)))]
+
+    def _page(self) -> str:
+        """The report page, as HTML that needs nothing else."""
+        if self.directory is not None:
+            page = self.directory / "report.html"
+            if not page.exists():
+                raise Error(f'there is no {page}; run again without "report": false in the "output" of the case')
+            return page.read_text(encoding="utf-8")
+        if not len(self):
+            raise Error("there is no snapshot to report")
+        return page_of(self._recording, self.report, self._summary)
+
+    def _repr_html_(self) -> str:
+        """In a notebook: the report page, which loads nothing from the network."""
+        return f'<iframe srcdoc="{html.escape(self._page())}" style="width: 100%; height: 640px; border: 0"></iframe>'
+
+    def animate(
+        self, file: str | os.PathLike[str] | None = None, fps: float = 20, exaggerate: float = 1
+    ) -> matplotlib.animation.FuncAnimation:
+        """The motion as an animation by matplotlib, seen along the axis in which the beams extend least; `exaggerate` as in
+        `plot_shape`. In a notebook `IPython.display.HTML(results.animate().to_jshtml())` shows it. With `file`, a .gif, .mp4
+        or .html, it is written there; `results.report("x.html")` has the 3-D view."""
+        from . import plots
+
+        moments = [
+            plots.Picture(
+                snapshot.time,
+                [beam.points(exaggerate=exaggerate) for beam in snapshot.beams.values()],
+                [motion.position for motion in snapshot.bodies.values()] if exaggerate == 1 else [],
+            )
+            for snapshot in self
+        ]
+        if not moments:
+            raise Error("there is no snapshot to show")
+        animation = plots.animation(moments, fps)
+        if file is not None:
+            plots.save_animation(animation, os.fspath(file), fps)
+        return animation
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The histories as a pandas DataFrame over time; `.attrs["units"]` holds the units."""
@@ -399,9 +512,14 @@ class Results(Sequence[Snapshot]):
         return plots.histories(self.times, {name: (of[name], of.unit(name)) for name in shown}, ax)
 
     def plot_shape(
-        self, times: Sequence[float] | None = None, ax: matplotlib.axes.Axes | None = None
+        self,
+        times: Sequence[float] | None = None,
+        ax: matplotlib.axes.Axes | None = None,
+        exaggerate: float = 1,
     ) -> matplotlib.axes.Axes:
-        """The beams and bodies at some times [s], six when omitted, seen along the axis in which they extend least."""
+        """The beams and bodies at some times [s], six when omitted, seen along the axis in which they extend least. With
+        `exaggerate` other than 1 the displacements of the beams are so many times those of the run, the drawing is shown
+        in grey, and bodies are left out."""
         from . import plots
 
         if times is None:
@@ -411,12 +529,13 @@ class Results(Sequence[Snapshot]):
         pictures = [
             plots.Picture(
                 snapshot.time,
-                [beam.points() for beam in snapshot.beams.values()],
-                [motion.position for motion in snapshot.bodies.values()],
+                [beam.points(exaggerate=exaggerate) for beam in snapshot.beams.values()],
+                [motion.position for motion in snapshot.bodies.values()] if exaggerate == 1 else [],
             )
             for snapshot in chosen
         ]
-        return plots.shapes(pictures, ax)
+        drawn = [] if exaggerate == 1 else [beam.points(exaggerate=0) for beam in chosen[0].beams.values()]
+        return plots.shapes(pictures, ax, drawn)
 
     def plot_along(
         self,
@@ -437,10 +556,16 @@ class Results(Sequence[Snapshot]):
         return plots.along(shape.s, shape.field(field), f"{field} of {name}", field, snapshot.time, ax)
 
     def export(
-        self, file: str | os.PathLike[str], time: float | None = None, unit: str = "mm", schema: str = "ap214"
+        self,
+        file: str | os.PathLike[str],
+        time: float | None = None,
+        unit: str = "mm",
+        schema: str = "ap214",
+        exaggerate: float = 1,
     ) -> None:
-        """Writes the deformed axes at a time [s], the last when omitted, to a CAD file, as `nurbeam.write` does."""
-        (self[-1] if time is None else self.at(time)).export(file, unit, schema)
+        """Writes the deformed axes at a time [s], the last when omitted, to a CAD file, as `nurbeam.write` does, with
+        displacements from the drawing times `exaggerate`."""
+        (self[-1] if time is None else self.at(time)).export(file, unit, schema, exaggerate)
 
     def __repr__(self) -> str:
         times = self.times
@@ -457,4 +582,4 @@ class RunError(Error, RuntimeError):
 
     def __reduce__(self) -> Any:
         """Pickled with the results."""
-        return type(self), (str(self), self.results)
+        return reduced(type(self), str(self), self.results)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import math
 import operator
 import os
-from collections.abc import Callable, Iterator
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,21 +20,24 @@ from .loads import Load
 from .results import Results, RunError, Snapshot
 
 if TYPE_CHECKING:
+    from .signals import Signal
     from .system import System
 
 __all__ = ["Simulation", "Checkpoint"]
 
 Array = npt.NDArray[np.float64]
+_MAGIC = b"nurbeam1"
 
 
 class Checkpoint:
     """A moment that a motion can go on from: `model.simulate(..., start=checkpoint)`, in the same model with the same
     integrator, with the loads as `set_load` has left them. The step, the end and the output times may be others; where they
-    are the same it goes on bit by bit as if it had not been interrupted (with `ida` within its tolerance). ValueError where
+    are the same it goes on bit by bit as if it had not been interrupted. ValueError where
     the model is another."""
 
-    def __init__(self, core: _core.Checkpoint):
+    def __init__(self, core: _core.Checkpoint, signals: Sequence[Any] = ()):
         self._core = core
+        self._signals = list(signals)
 
     @property
     def time(self) -> float:
@@ -39,8 +45,41 @@ class Checkpoint:
         return self._core.time
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes it to a file (netCDF)."""
+        """Writes it to a file (netCDF). ValueError for one with signals, which such a file does not hold: use `to_bytes`."""
+        if self._signals:
+            raise ValueError("the checkpoint has signals, which its file does not hold; use to_bytes")
         self._core.save(os.fspath(file))
+
+    def to_bytes(self) -> bytes:
+        """The whole checkpoint with its signals, and a checksum (SHA-256) over all of it."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "checkpoint.nc")
+            self._core.save(file)
+            with open(file, "rb") as stream:
+                state = stream.read()
+        signals = [[np.asarray(part).tolist() for part in signal] for signal in self._signals]
+        head = json.dumps({"signals": signals, "length": len(state)}).encode()
+        body = len(head).to_bytes(8, "little") + head + state
+        return _MAGIC + hashlib.sha256(body).digest() + body
+
+    @staticmethod
+    def from_bytes(data: bytes) -> Checkpoint:
+        """Of what `to_bytes` has given. ValueError for anything else, and where a single bit of it has changed."""
+        if data[: len(_MAGIC)] != _MAGIC:
+            raise ValueError("these bytes are no checkpoint; expected those of Checkpoint.to_bytes")
+        checksum, body = data[len(_MAGIC) :][:32], data[len(_MAGIC) + 32 :]
+        if hashlib.sha256(body).digest() != checksum:
+            raise ValueError("the checkpoint is damaged: it has not the checksum (SHA-256) that it was made with")
+        start = 8 + int.from_bytes(body[:8], "little")
+        signals = json.loads(body[8:start])["signals"]
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "checkpoint.nc")
+            with open(file, "wb") as stream:
+                stream.write(body[start:])
+            return Checkpoint(Checkpoint.load(file)._core, [tuple(signal) for signal in signals])
+
+    def __reduce__(self) -> Any:
+        return Checkpoint.from_bytes, (self.to_bytes(),)
 
     @staticmethod
     def load(file: str | os.PathLike[str]) -> Checkpoint:
@@ -60,9 +99,10 @@ class Simulation:
     and loads changed in between. It belongs to one thread at a time; Python goes on in others while it computes.
     """
 
-    def __init__(self, core: _core.LiveRun, case: _core.BuiltCase):
+    def __init__(self, core: _core.LiveRun, case: _core.BuiltCase, signals: Sequence[Signal] = ()):
         self._core = core
         self._case = case
+        self._signals = list(signals)
 
     def __iter__(self) -> Iterator[Snapshot]:
         """Snapshots at the output times, from the present one to the end of the run. RunError where it ends before."""
@@ -114,7 +154,7 @@ class Simulation:
     @property
     def results(self) -> Results:
         """The snapshots until now."""
-        return Results._of(self._core.recording, self.report)
+        return Results._of(self._core.recording, self.report, self._case.summary())
 
     @property
     def report(self) -> dict[str, Any]:
@@ -122,12 +162,12 @@ class Simulation:
         `steps`, `rejected_steps`, `newton_iterations`, `seconds`, `energy_drift` [J], `events` (changes of the mesh, bodies
         at a beam's end, each with its `time` and `kind`), `warnings` (notes too, each its severity, its place and its
         message)."""
-        return self._core.report()
+        return {**self._core.report(), "extremes": self._core.extremes()}
 
     @property
     def checkpoint(self) -> Checkpoint:
         """The present moment of a motion that has begun; ValueError before its first step and in statics."""
-        return Checkpoint(self._core.checkpoint())
+        return Checkpoint(self._core.checkpoint(), [signal._core.state() for signal in self._signals])
 
     @property
     def system(self) -> System:
@@ -135,6 +175,31 @@ class Simulation:
         from .system import System
 
         return System(_core.Equations.of(self._core))
+
+    def set(self, signal: Signal, value: npt.ArrayLike, slope: npt.ArrayLike | None = None) -> None:
+        """From now on a signal has this value, and changes by `slope` in a second, 0 when omitted. ValueError for one that
+        is not of the model, and where the speed of a joint or a support would jump: see `ramp`."""
+        self._set(signal, value, np.zeros(signal.size) if slope is None else slope, math.inf)
+
+    def ramp(self, signal: Signal, value: npt.ArrayLike, by: float) -> None:
+        """Takes a signal evenly from its present value to another one, where it is at the time `by` [s] and stays."""
+        now = signal(self.time)
+        if not by > self.time:
+            raise ValueError(f"by is {by} s, but the run is at {self.time} s; give a later time")
+        self._set(signal, now, (np.asarray(value, dtype=float) - now) / (by - self.time), by)
+
+    def _set(self, signal: Signal, value: npt.ArrayLike, slope: npt.ArrayLike, until: float) -> None:
+        if signal not in self._signals:
+            raise ValueError(f"{signal!r} is not of this model; add it by add_force, as a motion or by set_wind first")
+        self._core.set_signal(signal._core, signal._three(value), signal._three(slope), until)
+
+    def values(self, *names: str) -> list[float]:
+        """Histories at the present moment, by their names: `x, force = simulation.values("trolley.x", "upper.fz")`. Only
+        what they need is computed, so that a few take less than a step. KeyError for a name that is unknown."""
+        try:
+            return self._core.values(list(names))
+        except ValueError as problem:
+            raise KeyError(str(problem)) from None
 
     def set_load(self, load: Load | int, value: npt.ArrayLike) -> None:
         """Gives a load another value from now on, a vector in world coordinates: three numbers, in N for a force, N m for

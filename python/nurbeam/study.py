@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import csv
+import hashlib
+import io
+import itertools
 import json
 import math
 import operator
@@ -11,7 +14,7 @@ import shutil
 import subprocess
 import tempfile
 import weakref
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,14 +22,14 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import CaseError, Finding, tell, unknown
-from .model import _json, _not_finite, _rename_files
-from .results import RunError
+from .errors import CaseError, Error, Finding, tell, unknown
+from .model import Model, _json, _not_finite, _rename_files
+from .results import Results, RunError
 
 if TYPE_CHECKING:
     import pandas
 
-__all__ = ["study", "Study"]
+__all__ = ["study", "Study", "vary"]
 
 Array = npt.NDArray[np.float64]
 
@@ -43,8 +46,21 @@ class Study(Mapping[str, Array]):
 
     def __init__(self, directory: str | os.PathLike[str]):
         self.directory = Path(directory)
-        with open(self.directory / "study.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
+        try:
+            summary = json.loads(_core.checked_json(self.directory / "study.json"))
+        except (RuntimeError, ValueError) as problem:
+            raise Error(str(problem)) from None
+        table = self.directory / "study.csv"
+        if not table.is_file():
+            raise Error(f"{table}: there is no such file; expected a directory that a study has left")
+        text = table.read_bytes()
+        for each in summary.get("files", []):
+            if each["file"] == table.name and each["sha256"] != hashlib.sha256(text).hexdigest():
+                raise Error(
+                    f"{table}: is damaged or was changed: it has not the checksum (SHA-256) that study.json says; "
+                    "take an undamaged copy, or make it anew with resume=True"
+                )
+        rows = list(csv.reader(io.StringIO(text.decode("utf-8"), newline="")))
         heading, rows = rows[0], rows[1:]
         last = heading.index("status")
         self.statuses: list[str] = [row[last] for row in rows]
@@ -54,7 +70,6 @@ class Study(Mapping[str, Array]):
         self._columns: dict[str, Array] = {}
         self.units: dict[str, str] = {}
         """Of the quantities that have one."""
-        summary = json.loads((self.directory / "study.json").read_text(encoding="utf-8"))
         names = {each["name"] for key in ("variables", "quantities") for each in summary["study"].get(key, [])}
         for i, title in enumerate(heading[1:last], start=1):
             has_unit = title not in names and title.endswith("]")
@@ -159,3 +174,48 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
         raise
     weakref.finalize(found, shutil.rmtree, scratch, ignore_errors=True)
     return found
+
+
+def vary(
+    model: Model,
+    variables: Mapping[str, Sequence[Any] | Array],
+    quantities: Mapping[str, str | Callable[[Results], float]],
+    *,
+    grid: bool = False,
+    **analysis: Any,
+) -> dict[str, Array]:
+    """Runs variants of a small model in this process, one after the other, without files: twenty static beams take less
+    than a tenth of a second, where `study` starts processes for them.
+
+    `variables` are values by their paths in the case, as `Model.set` has them: the first values of all make the first
+    variant, and so on; with `grid` each value of one meets each of the others. `quantities` are names of histories, of which
+    the last value counts, or functions of the results. The keywords are those of `Model.run`. Returns arrays by the names of
+    variables and quantities; NaN, and a CaseWarning with the first reason, where a variant is no model or its run fails. The
+    model stays as it is::
+
+        found = nb.vary(model, {"beams[arm].section.radius": np.linspace(0.01, 0.02, 20)},
+                        {"sink": "tip.uz", "stress": lambda r: r.extremes["arm.stress.max"].value}, type="static")
+    """
+    columns = [list(values) for values in variables.values()]
+    if not columns or not quantities:
+        raise ValueError("there are no variables or no quantities; give at least one of each")
+    if not grid and len({len(column) for column in columns}) > 1:
+        sizes = ", ".join(f'"{path}" has {len(column)}' for path, column in zip(variables, columns))
+        raise ValueError(f"the variables have different numbers of values: {sizes}; give as many of each, or grid=True")
+    rows = list(itertools.product(*columns) if grid else zip(*columns))
+    found = {name: np.full(len(rows), np.nan) for name in quantities}
+    reasons = []
+    for i, row in enumerate(rows):
+        variant = model.copy()
+        for path, value in zip(variables, row):
+            variant.set(path, value.item() if isinstance(value, np.generic) else value)
+        try:
+            results = variant.run(**analysis)
+        except (CaseError, RunError) as problem:
+            reasons.append(f"variant {i}: {problem}")
+            continue
+        for name, quantity in quantities.items():
+            found[name][i] = quantity(results) if callable(quantity) else results[quantity][-1]
+    if reasons:
+        tell([Finding("warning", "vary", f"{len(reasons)} of {len(rows)} variants are not done; {reasons[0]}")])
+    return {**{path: np.array([row[k] for row in rows]) for k, path in enumerate(variables)}, **found}

@@ -94,6 +94,10 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   trial_algorithmic_ = state_.a;
   residual_.resize(n + m);
   reference_.resize(n + m);
+  settles_ = settings_.settles && !system.has_constant_constraints();
+  for (Eigen::VectorXd* each : {&speeds_, &last_speeds_, &earlier_, &later_, &smooth_speeds_, &open_})
+    each->setZero(m);
+  if (settles_) system.turning_speeds(state_, last_speeds_);
 }
 
 IntegratorHistory GeneralizedAlphaIntegrator::history() const {
@@ -123,6 +127,15 @@ void GeneralizedAlphaIntegrator::restore(State state, const IntegratorHistory& h
   mass_scale_ = history.numbers[2];
   first_corrections_ = static_cast<int>(history.numbers[3]);
   more_corrections_ = static_cast<int>(history.numbers[4]);
+  if (settles_) system_->turning_speeds(state_, last_speeds_);
+}
+
+void GeneralizedAlphaIntegrator::jump_to(State state, const Eigen::VectorXd& jump) {
+  require_sizes(generalized_alpha_method, state, *system_);
+  require_size(generalized_alpha_method, "the jump", jump.size(), system_->coordinate_count());
+  state_ = std::move(state);
+  algorithmic_acceleration_ += jump;
+  if (settles_) system_->turning_speeds(state_, last_speeds_);
 }
 
 StepReport GeneralizedAlphaIntegrator::repeat(const State& before, const IntegratorHistory& history,
@@ -148,6 +161,7 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
     report.status = attempt(h, report);
     double shorter = 0.5;
     if (report.status == StepStatus::converged) {
+      if (settles_) settle(h);
       report.local_error = local_error(h);
       if (tolerance == 0 || report.local_error <= tolerance) {
         report.step = h;
@@ -381,6 +395,68 @@ double GeneralizedAlphaIntegrator::next_step(double step, double tolerance, cons
   return step * std::clamp(growth, 0.2, report.rejected > 0 ? 1.0 : largest_growth);
 }
 
+/// Whether the velocities of the trial state along the gradients of constraints have turned since the last
+/// step as those of a smooth motion do not.
+bool GeneralizedAlphaIntegrator::alternates() const {
+  constexpr double smooth = 0.1, round_off = 1e-12;
+  const auto now = speeds_.array(), last = last_speeds_.array();
+  const double noise = round_off * trial_.v.lpNorm<Eigen::Infinity>();
+  return ((now - last).abs() > (smooth * (now.abs() + last.abs())).max(noise)).any();
+}
+
+/// Projects v and alg of the trial state onto those of a smooth motion, in the norm of the step's matrix.
+void GeneralizedAlphaIntegrator::settle(double step) {
+  system_->turning_speeds(trial_, speeds_);
+  if (!alternates()) return;
+  const auto& [alpha_m, alpha_f, beta, gamma, error] = parameters_;
+  const double little = step / 64, per_jerk = error * step * step;
+  beside_.load = trial_.load;
+  beside_.lambda = trial_.lambda;
+  const auto find_speeds = [&](double time, Eigen::VectorXd& speeds) {  // on the way with constant a
+    beside_.t = trial_.t + time;
+    beside_.q = trial_.q + time * (trial_.v + (time / 2) * trial_.a);
+    beside_.v = trial_.v + time * trial_.a;
+    system_->turning_speeds(beside_, speeds);
+  };
+  find_speeds(-little, earlier_);
+  find_speeds(little, later_);
+  // e h^2 G j, within the present speeds where a constraint turns or is driven with a kink.
+  smooth_speeds_ = (per_jerk / (little * little)) * (2 * speeds_ - earlier_ - later_);
+  smooth_speeds_ = smooth_speeds_.cwiseMin(speeds_.cwiseAbs().cwiseMax(last_speeds_.cwiseAbs()))
+                       .cwiseMax(-speeds_.cwiseAbs().cwiseMax(last_speeds_.cwiseAbs()));
+  // Speeds change with v in proportion: alg - a takes the place of v for a second.
+  beside_.t = trial_.t;
+  beside_.q = trial_.q;
+  beside_.v = trial_.v + trial_algorithmic_ - trial_.a;
+  system_->turning_speeds(beside_, open_);
+  open_ += (later_ - earlier_) / (2 * little) - speeds_;
+  open_ -= ((alpha_m - alpha_f) * step / per_jerk) * smooth_speeds_;
+  project_open(trial_algorithmic_);
+  open_ = speeds_ - smooth_speeds_;
+  project_open(trial_.v);
+  balance_again(step);
+  system_->turning_speeds(trial_, speeds_);
+}
+
+/// Balances forces at velocities that have been moved, as dampers feel it.
+void GeneralizedAlphaIntegrator::balance_again(double step) {
+  constexpr int most_iterations = 3;
+  for (int i = 0; i < most_iterations; ++i) {
+    evaluate_residual();
+    if (!(scale_residual(step) > settings_.newton_tolerance) || !std::isfinite(find_correction())) return;
+    correct(step);
+  }
+}
+
+/// Takes open_ (m) off G times `motion`.
+void GeneralizedAlphaIntegrator::project_open(Eigen::VectorXd& motion) {
+  Eigen::VectorXd& correction = residual_;
+  correction.head(motion.size()).setZero();
+  correction.tail(open_.size()) = open_;
+  solver_.solve(residual_, correction);
+  motion -= correction.head(motion.size());
+}
+
 void GeneralizedAlphaIntegrator::accept(double step) {
   by_pieces(state_.q.size(), piece, [&](long first, long end) {
     with_start(first, end, [&](const auto& start) {
@@ -390,6 +466,7 @@ void GeneralizedAlphaIntegrator::accept(double step) {
   std::swap(state_, trial_);
   std::swap(algorithmic_acceleration_, trial_algorithmic_);
   last_step_ = step;
+  std::swap(speeds_, last_speeds_);
   state_.memory = system_->committed(state_);
 }
 

@@ -14,6 +14,8 @@ struct GeneralizedAlpha {
   int max_iterations = 12;
   int max_halvings = 12;  ///< halvings of a failed step, before giving up
   double tolerance = 0;   ///< relative local error per step; 0: fixed steps
+  bool settles = true;    ///< project v and alg onto the constraints after each step; StepTangent and
+                          ///< StepAdjoint know only steps that do not
 };
 
 /// Advances one state by the index-3 generalized-alpha method; keeps the method's own acceleration variable
@@ -31,6 +33,18 @@ struct GeneralizedAlpha {
 /// (alpha_m - alpha_f) h, so a new step h_new moves it by (alpha_m - alpha_f)(h_new - h) d3q/dt3, the
 /// derivative taken from alg over the last step. A step more than four times the last one starts afresh with
 /// alg = a.
+///
+/// Settling: at index 3 what is left of v and alg along the gradients of the constraints alternates from step
+/// to step and dies out by rho_infinity a step. Where the gradients turn by a good part of 1 - rho_infinity
+/// in a step, it feeds on the motion and grows without bound. So where G v + g_t has turned by more than a
+/// smooth motion lets it, v and alg are projected after the step onto
+///
+///   G v + g_t = e h^2 G j,   G alg + curvature = (alpha_m - alpha_f) h G j,
+///
+/// in the norm of the iteration matrix, a back substitution each; j = d3q/dt3, and e is the method's own
+/// error of position. Forces that depend on v are balanced again. With zero in place of
+/// the right-hand sides each step would begin like a first one, and lambda would be of first order. Where G
+/// is constant, nothing grows.
 ///
 /// Order two in q and v for any steps; in lambda for equal steps, once the start (alg = a) is forgotten like
 /// rho_infinity^k. A change of step disturbs lambda and a by O(h_new - h), which is forgotten at the same
@@ -66,6 +80,9 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   /// state at which its matrix was taken.
   IntegratorHistory history() const override;
   void restore(State state, const IntegratorHistory& history) override;
+  /// Goes on from `state`, whose v and a have jumped, a by `jump` (n). The method's own acceleration jumps
+  /// with a, so that coordinates without a jump go on as if there were none.
+  void jump_to(State state, const Eigen::VectorXd& jump);
   [[nodiscard]] StepReport repeat(const State& before, const IntegratorHistory& history,
                                   double step) override;
   /// (n+m) x (n+m) the scaled matrix of the last Newton iteration, whichever step it was taken in.
@@ -96,6 +113,10 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   void correct(double step);
   double local_error(double step) const;
   double next_step(double step, double tolerance, const StepReport& report) const;
+  bool alternates() const;
+  void settle(double step);
+  void project_open(Eigen::VectorXd& motion);
+  void balance_again(double step);
   void accept(double step);
 
   GeneralizedAlpha settings_;
@@ -118,14 +139,18 @@ class GeneralizedAlphaIntegrator final : public Integrator {
 
   // The attempt under way.
   State trial_;               ///< after a step: the state before it, until that is taken
+  bool settles_ = false;      ///< whether G turns, so that steps settle
   bool starts_anew_ = false;  ///< from the true acceleration, not the method's own variable
   double of_jerk_ = 0;  ///< factor of jerk_ that moves algorithmic_acceleration_ to the step of the attempt
   Eigen::VectorXd trial_algorithmic_;
   Eigen::VectorXd residual_;  ///< (n+m) scaled; once solved for, the correction that answers it
   Eigen::VectorXd
       reference_;  ///< (n+m) inverse of the reference of the scaled residual, at the place of factorised_
-  Eigen::VectorXd inverse_scale_;  ///< (n) of the coordinates
-  Eigen::MatrixXd moved_part_;     ///< present moving part less the one in kkt_
+  Eigen::VectorXd inverse_scale_;         ///< (n) of the coordinates
+  Eigen::VectorXd speeds_, last_speeds_;  ///< (m) G v + g_t of the trial state and of the last one
+  Eigen::VectorXd earlier_, later_, smooth_speeds_, open_;  ///< (m) work space of settle()
+  State beside_;                ///< work space: a state near the trial state, without a and memory
+  Eigen::MatrixXd moved_part_;  ///< present moving part less the one in kkt_
 };
 
 }  // namespace nurbeam

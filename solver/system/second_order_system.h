@@ -86,6 +86,12 @@ class SecondOrderSystem {
     part.resize(0, 0);
   }
 
+  /// Whether G is equal in all states.
+  virtual bool has_constant_constraints() const { return constraint_count() == 0; }
+  /// speeds (m) = G v + dg/dt in the rows whose gradient turns; in other rows the same or 0.
+  virtual void turning_speeds(const State& state, Eigen::Ref<Eigen::VectorXd> speeds) const {
+    speeds = constraint_product(state, state.v) + constraint_rate(state);
+  }
   /// (m) dg/dt at fixed q: a consistent velocity satisfies G v + rate = 0.
   virtual Eigen::VectorXd constraint_rate(const State& state) const = 0;
   /// (m) G x, x (n).

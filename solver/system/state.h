@@ -15,6 +15,8 @@ struct State {
   Eigen::VectorXd memory = {};
   /// 1 or 0: the side of 0 on which each law with a kink is held; empty: by its strain.
   Eigen::VectorXd sides = {};
+  /// Factor on energies that only keep a discretisation in shape: below 1 on the way to an equilibrium.
+  double stabilisation = 1;
 };
 
 }  // namespace nurbeam

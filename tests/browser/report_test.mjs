@@ -64,6 +64,58 @@ report_test('round-off is no extreme', 'strut/report.html', {}, async (page) => 
   assert.doesNotMatch(await page.textContent('#extremes'), /axial_force|stress|von_mises/);
 });
 
+report_test('a deflection of millimetres is seen, beside the drawing in grey, and says how much larger it is', 'cantilever/report.html', {},
+  async (page) => {
+    assert.equal(await page.$eval('#field', (field) => field.selectedOptions[0].textContent), 'stress');
+    assert.equal(await page.textContent('#legend-unit'), 'MPa');
+    await page.screenshot({ path: join(shots, 'cantilever.png') });
+    const bottom = async (times) => {
+      await page.click(`[data-times="${times}"]`);
+      return (await picture(page)).bottom;
+    };
+    const [as_is, by_ten, by_hundred] = [await bottom(1), await bottom(10), await bottom(100)];
+    assert.match(await page.textContent('#enlarged'), /deformation × 100/);
+    assert.ok(Math.abs(by_hundred - as_is - 11 * (by_ten - as_is)) < 12, `${as_is}, ${by_ten}, ${by_hundred}`);
+    // F L^3/(3 E I) of 2 m with a radius of 20 mm; the bar below the picture is so many pixels long.
+    const deflection = (20 * 8) / (3 * 206e9 * (Math.PI / 4) * 0.02 ** 4);
+    const scale = await page.$eval('.scale-bar', (bar) => bar.getBoundingClientRect().width / parseFloat(bar.nextSibling.textContent));
+    assert.ok(Math.abs(by_hundred - as_is - 99 * deflection * scale) < 0.03 * by_hundred, `${by_hundred - as_is} pixels`);
+    assert.equal(await bottom(1), as_is);
+    assert.doesNotMatch(await page.textContent('#enlarged'), /deformation/);
+    assert.match(await page.textContent('#extremes'), /displacement.max2\.06\d* mm/);
+  });
+
+report_test('a long line is no stroke: its heights are shown larger, which the picture says', 'line/report.html', {}, async (page) => {
+  await page.click('[data-times="1"]');
+  const extents = async () => {
+    const { left, right, top, bottom } = await picture(page);
+    return (bottom - top) / (right - left);
+  };
+  const high = await extents();
+  assert.match(await page.textContent('#enlarged'), /heights × \d/);
+  const factor = Number((await page.textContent('#heights-name')).match(/\d+/)[0]);
+  await page.uncheck('#heights');
+  const as_is = await extents();
+  assert.ok(factor >= 3 && Math.abs(high / as_is - factor) < 0.2 * factor, `${high} and ${as_is}, ${factor} times`);
+  assert.doesNotMatch(await page.textContent('#enlarged'), /heights/);
+  await page.check('#heights');
+  assert.ok(Math.abs(await extents() - high) < 0.02);
+});
+
+report_test('of a model in a plane the plots show the two coordinates that move', falling_beam, {}, async (page) => {
+  assert.deepEqual(Object.keys(await readings(page, 'body-0-position')), ['x', 'y']);
+});
+
+for (const file of [zipline, 'cantilever/report.html', 'cable_crane/report.html', still]) {
+  report_test(`on a phone no column is out of sight: ${file}`, file, { viewport: { width: 390, height: 844 } }, async (page) => {
+    await page.screenshot({ path: join(shots, `${file.split('/')[0]}_phone.png`) });
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    const wide = await page.$$eval('.table-card', (cards) => cards.filter((card) => card.scrollWidth > card.clientWidth + 1)
+      .map((card) => card.getAttribute('aria-label')));
+    assert.deepEqual(wide, []);
+  });
+}
+
 report_test('names do not cover each other', 'cable_crane/report.html', {}, async (page) => {
   for (let i = 0; i < 12; ++i) {
     await page.evaluate(() => document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: '-', bubbles: true })));
@@ -155,8 +207,10 @@ for (const [directory, probe, body] of [['zipline', 'middle', 'trolley'], ['fall
         .filter((text) => Number(text.getAttribute('x')) < 60)
         .map((text) => [Number(text.textContent.replace('−', '-')), Number(text.getAttribute('y'))]));
       const [[low, y_low], [high, y_high]] = [ticks.at(0), ticks.at(-1)];
+      const unit = await page.textContent('[data-plot="energy"] figcaption .unit');
+      const joules = { '[mJ]': 1e-3, '[J]': 1, '[kJ]': 1e3 }[unit];
       ['kinetic', 'gravity', 'axial', 'bending', 'dissipated', 'total', 'input'].forEach((part, i) => {
-        const value = csv.value(-1, `energy.${part} [J]`);
+        const value = csv.value(-1, `energy.${part} [J]`) / joules;
         const expected = y_low + ((value - low) / (high - low)) * (y_high - y_low);
         assert.ok(Math.abs(ends[i] - expected) < 0.3, `${part}: ${ends[i]}, not ${expected} pixels`);
       });
@@ -236,8 +290,7 @@ report_test('colours follow the chosen field, signed ones symmetrically about ze
     .replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)))));
   await go_to(page, 40);
   const pictures = {};
-  for (const name of ['strain', 'curvature [1/m]', 'axial force [N]', 'bending moment [N m]',
-    'shear force [N]', 'stress [Pa]', 'axial mismatch', 'speed [m/s]']) {
+  for (const name of ['strain', 'curvature', 'axial force', 'bending moment', 'shear force', 'stress', 'axial mismatch', 'speed']) {
     await page.selectOption('#field', { label: name });
     pictures[name] = (await picture(page)).hash;
     const [low, middle, high] = await legend();
@@ -247,11 +300,11 @@ report_test('colours follow the chosen field, signed ones symmetrically about ze
       assert.equal(middle, 0, name);
     }
   }
-  assert.equal(new Set([pictures.strain, pictures['curvature [1/m]'], pictures['speed [m/s]']]).size, 3);
+  assert.equal(new Set([pictures.strain, pictures.curvature, pictures.speed]).size, 3);
 });
 
 report_test('colours can show the range of the instant', falling_beam, {}, async (page) => {
-  await page.selectOption('#field', { label: 'speed [m/s]' });
+  await page.selectOption('#field', { label: 'speed' });
   await go_to(page, 0);
   const high = () => page.textContent('#legend-high');
   const of_run = await high(), whole = (await picture(page)).hash;
@@ -268,7 +321,7 @@ report_test('colours can show the range of the instant', falling_beam, {}, async
 report_test('a field along the beams is the one of the histories', falling_beam, {}, async (page) => {
   const csv = histories('falling_beam');
   const beam = csv.names.find((name) => name.endsWith('.axial_force.min [N]')).replace('.axial_force.min [N]', '');
-  await page.selectOption('#along-field', { label: 'axial force [N]' });
+  await page.selectOption('#along-field', { label: 'axial force' });
   const of = (frame, part) => csv.value(frame, `${beam}.axial_force.${part} [N]`);
   const range = Math.max(...csv.rows.map((_, i) => of(i, 'max'))) - Math.min(...csv.rows.map((_, i) => of(i, 'min')));
   for (const frame of [0, 25, 40]) {

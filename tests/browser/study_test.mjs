@@ -10,14 +10,14 @@ before(async () => { browser = await start_browser(); });
 after(() => browser.close());
 
 /** Opens the page of a study for one test; it must not have complained when the test ends. */
-function study_test(name, study, body) {
+function study_test(name, study, body, width = 1300) {
   test(name, async () => {
-    const page = await browser.newPage({ viewport: { width: 1300, height: 1500 } });
+    const page = await browser.newPage({ viewport: { width, height: 1500 } });
     const complaints = [];
     page.on('console', (message) => complaints.push(message.text()));
     page.on('pageerror', (error) => complaints.push(error.message));
     await page.goto(`file://${join(out, study, 'study.html')}`);
-    await page.screenshot({ path: join(out, 'screenshots', `study_${study}.png`) });
+    await page.screenshot({ path: join(out, 'screenshots', `study_${study}_${width}.png`) });
     await body(page);
     assert.deepEqual(complaints, []);
     await page.close();
@@ -70,7 +70,7 @@ study_test('a front stands in order, from end to end', 'front', async (page) => 
   assert.equal(Number((await texts(page, '#chosen td'))[3]), shown.at(-1));
 });
 
-for (const study of ['many', 'derivatives', 'indices', 'nothing', 'front', 'lost']) {
+for (const study of ['grid', 'many', 'derivatives', 'indices', 'nothing', 'front', 'lost']) {
   study_test(`no words run into others, off the page or out of a drawing: ${study}`, study, async (page) => {
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'off the page');
     const { cut, crossed } = await page.evaluate(() => {
@@ -102,6 +102,46 @@ for (const study of ['many', 'derivatives', 'indices', 'nothing', 'front', 'lost
     }).map((heading) => heading.textContent));
     assert.deepEqual(empty, []);
   });
+}
+
+study_test('a grid of two variables is a family of curves and a map', 'grid', async (page) => {
+  assert.ok((await texts(page, 'h2')).includes('Quantities over both variables'));
+  assert.equal(await page.$$eval('#grid-map .family', (lines) => lines.length), 2 * 4);
+  const titles = await texts(page, '#grid-map .cell title');
+  assert.equal(titles.length, 2 * 24);
+  assert.ok(titles.some((text) => text.endsWith('f [N] 101')), titles.join());
+  await page.click('#grid-map .cell >> nth=23');
+  assert.equal((await texts(page, '#chosen td'))[0], titles[23].match(/variant (\d+)/)[1]);
+  assert.ok((await texts(page, '#scatter text')).includes('5'), 'round values stand between the ends of an axis');
+});
+
+study_test('curves in a plane are looked at from in front of it', 'plane', async (page) => {
+  const { wide, high } = await page.$eval('#curves canvas', (canvas) => {
+    const { width, height } = canvas, { data } = canvas.getContext('2d').getImageData(0, 0, width, height);
+    let [left, right, top, bottom] = [width, 0, height, 0];
+    for (let y = 0; y < height; ++y) {
+      for (let x = 0; x < width; ++x) {
+        const at = 4 * (y * width + x);
+        if (data[at + 3] > 60 && data[at + 2] > data[at] + 60) {  // blue, as the variants are
+          [left, right, top, bottom] = [Math.min(left, x), Math.max(right, x), Math.min(top, y), Math.max(bottom, y)];
+        }
+      }
+    }
+    return { wide: right - left, high: bottom - top };
+  });
+  assert.ok(Math.abs(high / wide - 2 / 4) < 0.02, `${high} of ${wide} pixels: it falls by 2 m on 4 m`);
+});
+
+for (const [study, narrow] of [['grid', 390], ['many', 390], ['lost', 390]]) {
+  study_test(`on a phone the axes lie below each other, and nothing is off the page: ${study}`, study, async (page) => {
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'off the page');
+    const { width, slanted } = await page.$eval('#parallel', (drawing) => ({ width: drawing.getBoundingClientRect().width,
+      slanted: drawing.querySelectorAll('text[transform]').length }));
+    assert.ok(width <= narrow && slanted === 0);
+    const names = await page.$$eval('#parallel text', (all) => all.map((text) => Number.parseFloat(getComputedStyle(text).fontSize)
+      * text.ownerSVGElement.getScreenCTM().a));
+    assert.ok(Math.min(...names) > 11, `letters of ${Math.min(...names)} pixels`);
+  }, narrow);
 }
 
 study_test('a study of which no variant is done shows these', 'nothing', async (page) => {

@@ -243,8 +243,7 @@ class Generator : private Draw {
     const int kind = whole(0, 9);
     if (kind <= 3)
       analysis["integrator"] = {{"type", "generalized-alpha"}, {"rho_infinity", uniform(0.3, 1)}};
-    if (kind == 4 && !analysis.contains("tolerance")) analysis["integrator"] = {{"type", "ida"}};
-    if (kind == 5 || kind == 6) analysis["integrator"] = {{"type", "radau"}};
+    if (kind >= 4 && kind <= 6) analysis["integrator"] = {{"type", "radau"}};
     if (chance(0.06)) analysis = {{"type", "static"}};
     c["analysis"] = analysis;
     c["output"] = {{"report", false},

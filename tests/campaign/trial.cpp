@@ -28,29 +28,52 @@ namespace {
 using Eigen::Vector3d;
 constexpr double most_imbalance = 1e-8;
 
+// Whether sharp kinks or clamps of a beam may leave its bending to layers that the mesh does not show.
+bool has_sharp_places(const BeamModel& model, int b) {
+  const auto is_sharp = [](const HomeNode& node) {
+    return node.kind == NodeKind::kink || node.sharp || node.sharp_clamp;
+  };
+  return std::any_of(model.beams[b].home.begin(), model.beams[b].home.end(), is_sharp) ||
+         std::any_of(model.riders.begin(), model.riders.end(), [&](const Rider& rider) {
+           return rider.beam == b && (rider.sharp || !rider.continuous_slope);
+         });
+}
+
+double sum(double value) { return value; }
+double sum(const Eigen::Vector4d& samples) { return samples.sum(); }
+bool is_empty(double value) { return std::isnan(value); }
+bool is_empty(const Eigen::Vector4d& samples) { return samples.array().isNaN().all(); }
+
+// What is left of section forces to be finite: bending may be empty as a whole beside a sharp place.
+template <class Section>
+double finite_part(const Section& section, bool may_be_empty) {
+  const double always = sum(section.axial_force) + sum(section.torque);
+  if (may_be_empty && is_empty(section.bending_moment) && is_empty(section.shear_force)) return always;
+  return always + sum(section.bending_moment) + sum(section.shear_force);
+}
+
 // The name of a quantity that is not finite; empty where all are.
-std::string not_finite(const Snapshot& frame) {
+std::string not_finite(const BeamModel& model, const std::vector<Probe>& probes, const Snapshot& frame) {
   std::string name;
   const auto look = [&](const char* what, double value) {
     if (name.empty() && !std::isfinite(value)) name = what + (" at t = " + std::to_string(frame.time));
   };
   const EnergyRecord& e = frame.energy;
   look("an energy", e.total + e.kinetic + e.input + e.dissipated);
-  for (const ProbeRecord& p : frame.probes) {
+  for (std::size_t i = 0; i < frame.probes.size(); ++i) {
+    const ProbeRecord& p = frame.probes[i];
     look("a probe's motion", p.position.sum() + p.velocity.sum() + p.displacement.sum());
-    look("a probe's section force",
-         p.section.axial_force + p.section.bending_moment + p.section.torque + p.section.shear_force);
+    look("a probe's section force", finite_part(p.section, has_sharp_places(model, probes[i].beam)));
   }
   for (const BodyRecord& b : frame.bodies) {
     look("a body's motion", b.point.position.sum() + b.point.velocity.sum());
     look("a joint's force", b.joint_force.sum());
     look("a holding force", b.holding_force);
   }
-  for (const BeamRecord& beam : frame.beams)
-    for (const ElementRecord& element : beam.elements) {
+  for (std::size_t b = 0; b < frame.beams.size(); ++b)
+    for (const ElementRecord& element : frame.beams[b].elements) {
       look("a shape", element.control_points.sum() + element.velocity.sum());
-      look("a section force", element.axial_force.sum() + element.bending_moment.sum() +
-                                  element.shear_force.sum() + element.torque.sum());
+      look("a section force", finite_part(element, has_sharp_places(model, static_cast<int>(b))));
     }
   for (const ReactionRecord& r : frame.reactions)
     look("a reaction", r.force.sum() + r.couple.sum() + r.position.sum());
@@ -226,7 +249,6 @@ SimulationOptions options_of(const CaseAnalysis& a, int refinement) {
   if (auto* method = std::get_if<GeneralizedAlpha>(&options.integrator); method && method->tolerance > 0)
     method->tolerance /= std::pow(finer, 3);
   if (auto* method = std::get_if<Radau>(&options.integrator)) method->tolerance /= std::pow(finer, 4);
-  if (auto* method = std::get_if<Ida>(&options.integrator)) method->tolerance /= std::pow(finer, 3);
   constexpr int frames = 20;
   for (int i = 0; !options.statics && i <= frames; ++i)
     options.output_times.push_back(i * a.end_time / frames);
@@ -246,7 +268,6 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
   std::optional<MeshPlan> plan;
   std::size_t events = 0;
   double longest_step = 0;
-  // IDA takes many steps within one of ours where waves are undamped.
   const auto start = std::chrono::steady_clock::now();
   bool left = false;
   observer.interrupted = [&] {
@@ -254,7 +275,7 @@ Trial run(const BuiltModel& built, const SimulationOptions& options, bool balanc
     return left;
   };
   observer.snapshot = [&](const Snapshot& frame) {
-    if (trial.not_finite.empty()) trial.not_finite = not_finite(frame);
+    if (trial.not_finite.empty()) trial.not_finite = not_finite(*model, built.probes, frame);
     ++trial.frames;
   };
   observer.checkpoint_due = [&] {  // after every step
@@ -320,6 +341,16 @@ std::string energy_complaint(const BuiltModel& built, const CaseAnalysis& analys
   return "energy changes by " + seen + " of what moves, with a quarter of the step each";
 }
 
+// A step that settles moves velocities behind its balance of forces, and dampers feel that: by little, and a
+// run whose steps do not settle keeps the balance.
+bool is_of_settling(const BuiltModel& built, SimulationOptions options, double imbalance, long step_limit) {
+  constexpr double little = 1e-5;
+  auto* method = std::get_if<GeneralizedAlpha>(&options.integrator);
+  if (!method || !method->settles || !(imbalance <= little)) return false;
+  method->settles = false;
+  return run(built, options, true, step_limit).imbalance <= most_imbalance;
+}
+
 std::string first_words(const std::string& text) {
   std::istringstream words(text);
   std::string result, word;
@@ -352,14 +383,16 @@ Verdict try_case(const std::filesystem::path& file, long most_steps) {
   const BuildReport built = build_model(*read.value);
   if (!built.value)
     return finish("refused", all_of(built.diagnostics).empty() ? "refused without a word" : "");
-  const Trial trial = run(*built.value, options_of(read.value->analysis, 0), true, most_steps);
+  const SimulationOptions options = options_of(read.value->analysis, 0);
+  const Trial trial = run(*built.value, options, true, most_steps);
   const SimulationReport& report = trial.report;
   verdict.imbalance = trial.imbalance;
   if (report.energy_scale() > 0) verdict.drift = energy_change(report) / report.energy_scale();
   // A run that says that it goes wrong may leave anything in its frames.
   const bool warned = energy_change(report) > noticed(report);
   if (!trial.not_finite.empty() && !warned) return finish("done", "not finite: " + trial.not_finite);
-  if (!(trial.imbalance <= most_imbalance) && !warned)
+  if (!(trial.imbalance <= most_imbalance) && !warned &&
+      !is_of_settling(*built.value, options, trial.imbalance, most_steps))
     return finish("done", "reactions, loads and inertia miss each other by " +
                               std::to_string(trial.imbalance * 1e9) +
                               "e-9 of the largest force at t = " + std::to_string(trial.imbalance_time));

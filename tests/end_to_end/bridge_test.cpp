@@ -27,10 +27,11 @@ const std::string crossing = R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
       "stiffness": "1595 kN/m", "force": -56407.5 },
     { "name": "along", "from": { "body": "wheel" }, "to": { "body": "vehicle" }, "direction": [1, 0, 0],
       "type": "rod", "length": 0 }],
-  "analysis": { "end_time": 0.8997, "step": 1.5e-4 },
+  "analysis": { "end_time": 0.8997, "step": 7.5e-5 },
   "output": { "report": false, "every": 3e-4,
               "probes": [{ "name": "middle", "beam": "bridge", "at": { "fraction": 0.5 } }] } })";
 
+// A node leaves the mesh a moment before the greatest acceleration; steps twice as long show that by 1e-5.
 // The numbers are those of 60 modes of the bridge by Runge and Kutta, to 1e-11.
 TEST(Bridge, SwingsUnderASprungMassAsItsModesDo) {
   const TemporaryDirectory directory;

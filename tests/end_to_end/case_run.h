@@ -88,4 +88,10 @@ inline std::filesystem::path sample(const std::string& name) {
   return test::source_directory() / "samples" / name;
 }
 
+/// Runs a case of which the text is given.
+inline CaseRun run_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const TemporaryDirectory directory;
+  return run_file(directory.write("case.json", text), overrides);
+}
+
 }  // namespace nurbeam::test

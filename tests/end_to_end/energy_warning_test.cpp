@@ -77,15 +77,15 @@ TEST(CompressionWarning, NamesThePlaceWhereAnElementIsPressedToNothing) {
   EXPECT_TRUE(run.says(warning)) << run.messages;
 }
 
-// Statics ends where the element beside the body has turned round, 0.7 J above where the rope hangs.
-TEST(FoldWarning, NamesTheElementThatFoldsBackOnItself) {
-  const CaseRun folded = run_case("slack_ropes_fold.json"),
-                hangs = run_case("slack_ropes_fold.json", {"beams[0].elements.count=64"});
-  for (const CaseRun* run : {&folded, &hangs}) ASSERT_EQ(run->code, 0) << run->messages;
-  EXPECT_TRUE(folded.says("beam \"r\" folds back on itself inside an element, at s = 7.2"))
-      << folded.messages;
-  EXPECT_FALSE(hangs.says(warning)) << hangs.messages;
-  EXPECT_NEAR(hangs.last("energy.total [J]"), 2.7128, 1e-3);
+// With the end values and the mean alone statics ended where the element beside the body had turned round,
+// 0.7 J above where the rope hangs.
+TEST(SlackRope, HangsWithoutAFoldBesideItsBody) {
+  for (const char* elements : {"beams[0].elements.count=16", "beams[0].elements.count=64"}) {
+    const CaseRun hangs = run_case("slack_ropes_fold.json", {elements});
+    ASSERT_EQ(hangs.code, 0) << hangs.messages;
+    EXPECT_FALSE(hangs.says(warning)) << hangs.messages;
+    EXPECT_NEAR(hangs.last("energy.total [J]"), 2.7128, 1e-3);
+  }
 }
 
 // A restart out of balance gave damping 360 J back.
@@ -127,7 +127,7 @@ TEST(EnergyFromNowhere, IsNotThatOfALoadOnWhatRests) {
     "supports": [{"beam": "b", "at": "start", "type": "clamped"}],
     "loads": [{"beam": "b", "at": {"fraction": 0.5}, "force": [0, 10000, 0],
                "time": [[0.1003, 0], [0.1004, 1], [0.1005, 0]]}],
-    "analysis": {"integrator": {"type": "ida"}, "end_time": 0.12}, "output": {"report": false}})"));
+    "analysis": {"integrator": {"type": "radau"}, "end_time": 0.12}, "output": {"report": false}})"));
   EXPECT_EQ(run.code, 0) << run.messages;
   EXPECT_NEAR(run.last("energy.total [J]"), 0, 0.01 * run.last("energy.input [J]"));
 }

@@ -117,7 +117,7 @@ TEST(FrictionRun, ADrivenBodyThatStandsIsNotRubbed) {
     const CaseRun run = run_rubbing(rubbing_case(
         R"({"polyline": [[0, 0, 0], [10, 0, 0]]})", 2,
         R"("at": {"length": 1}, "friction": {"coefficient": 0.3, "viscous": 3},
-           "motion": {"table": [[0, 1], [1, 3], [2, 3], [3, 1]]})",
+           "motion": {"table": [[0, 1], [1, 3], [2, 3], [3, 1]], "interpolation": "linear"})",
         std::string(R"({"end_time": 1.8, "step": )") + step + "}", "", R"("gravity": [0, 0, -9.81], )"));
     ASSERT_EQ(run.code, 0) << run.messages;
     EXPECT_NEAR(run.last("bead.friction_force [N]"), 0, 1e-9) << step;
@@ -343,13 +343,17 @@ TEST(FrictionRun, WhatCannotBeIsRefused) {
     EXPECT_TRUE(run.says(part)) << run.messages;
   };
   says("sliding_joints[0].friction.static=0.2", "friction.static: is 0.2, less than \"coefficient\", 0.3");
-  says("sliding_joints[0].friction.law=capstan", "friction.law: is \"capstan\"");
+  const CaseRun smooth =
+      run_rubbing(text, {"sliding_joints[0].friction.law=capstan", "sliding_joints[0].slope=continuous"});
+  EXPECT_TRUE(smooth.code == 2 && smooth.says("friction.law: is \"capstan\"")) << smooth.messages;
   says("sliding_joints[0].friction.coefficient=11", "must be between 0 and 10");
   EXPECT_FALSE(run_rubbing(text, {"sliding_joints[0].friction.coefficient=11"}).says("resists nothing"));
   says("sliding_joints[0].friction.coefficient=-1", "must be between 0 and 10");
   says("sliding_joints[0].friction.force=-3", "must be between 0 and 1e+12");
   says("sliding_joints[0].friction.stick_stiffness=0", "must be between 1e-09 and");
-  says("analysis.integrator.type=ida", "friction");
+  says("analysis.integrator.type=ida",
+       "analysis.integrator.type: is \"ida\", which nurbeam no longer has; use \"radau\"");
+  EXPECT_FALSE(run_rubbing(text, {"analysis.integrator.type=ida", "analysis.step=null"}).says("rk4"));
   says("sliding_joints[0].friction={\"stick_stiffness\": 100}",
        "friction: resists nothing; give \"coefficient\"");
   says("bodies[0].drag_area=0.8", "bodies[0].drag_area: needs the \"air\" that drags");

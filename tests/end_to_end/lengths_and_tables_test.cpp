@@ -29,10 +29,10 @@ const std::string bar = R"({
   "output": { "report": false, "probes": [{ "name": "p", "beam": "b", "at": { "fraction": 0.5 } }] }
 })";
 
-CaseRun run_text(const std::string& text, const std::vector<std::string>& overrides = {},
-                 const std::string& csv = {}) {
+CaseRun run_with_table(const std::string& text, const std::vector<std::string>& overrides,
+                       const std::string& csv) {
   const TemporaryDirectory directory;
-  if (!csv.empty()) directory.write("table.csv", csv);
+  directory.write("table.csv", csv);
   return run_file(directory.write("case.json", text), overrides);
 }
 
@@ -283,20 +283,20 @@ TEST(LoadSteps, ATableInAFileIsTheSameAsItsRows) {
   const CaseRun inline_rows = run_text(cantilever, {rows, "analysis.load_steps=4"});
   ASSERT_EQ(inline_rows.code, 0) << inline_rows.messages;
   const std::string csv = "# measured\nforce, clock\n0, 0\n0.1, 0.5\n\n1, 1\n";
-  const CaseRun file = run_text(
+  const CaseRun file = run_with_table(
       cantilever,
       {R"(loads[0].time={"file": "table.csv", "columns": ["clock", "force"]})", "analysis.load_steps=4"},
       csv);
   ASSERT_EQ(file.code, 0) << file.messages;
   expect_same(file, inline_rows);
-  const CaseRun first = run_text(
+  const CaseRun first = run_with_table(
       cantilever, {R"(loads[0].time={"file": "table.csv"})", "analysis.load_steps=4"}, "0;0\n0.5;0.1\n1;1\n");
   expect_same(first, inline_rows);
 }
 
 TEST(TableFiles, ThatCannotBeReadNamePlaceAndLine) {
   const auto says = [](const std::string& override, const std::string& csv, const std::string& words) {
-    const CaseRun run = run_text(cantilever, {override}, csv);
+    const CaseRun run = run_with_table(cantilever, {override}, csv);
     EXPECT_EQ(run.code, 2);
     EXPECT_TRUE(run.says(words)) << run.messages;
   };
@@ -324,12 +324,12 @@ TEST(TableFiles, HaveTheirColumnsInTheUnitsOfTheirHeadings) {
   for (const char* table : {"t [ms],f,\n0,0,\n1000,1,\n", "t (ms),f(t)\n0,0\n1000,1\n",
                             "time/ms;F/kN\n0;0\n1000;0.001\n", "Time(ms),F / (kN)\n0,0\n1000,0.001\n",
                             "time (ms) moment [N m]\n0 0\n1000 1\n", "t (raw),F/F0 (min)\n0,0\n1,1\n"}) {
-    const CaseRun read =
-        run_text(cantilever, {R"(loads[0].time={"file": "table.csv"})", "analysis.load_steps=4"}, table);
+    const CaseRun read = run_with_table(
+        cantilever, {R"(loads[0].time={"file": "table.csv"})", "analysis.load_steps=4"}, table);
     ASSERT_EQ(read.code, 0) << read.messages;
     expect_same(read, seconds);
   }
-  const CaseRun chosen = run_text(
+  const CaseRun chosen = run_with_table(
       cantilever, {R"(loads[0].time={"file": "table.csv", "columns": ["t", "F"]})", "analysis.load_steps=4"},
       "F/kN,t (ms)\n0,0\n0.001,1000\n");
   ASSERT_EQ(chosen.code, 0) << chosen.messages;

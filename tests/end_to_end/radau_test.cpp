@@ -22,11 +22,6 @@ std::string bead_case(const std::string& joint, const std::string& stops, const 
          joint + R"(}], "stops": )" + stops + R"(, "analysis": )" + analysis + "}";
 }
 
-CaseRun run_text(const std::string& text, const std::vector<std::string>& overrides) {
-  const TemporaryDirectory directory;
-  return run_file(directory.write("case.json", text), overrides);
-}
-
 TEST(RadauRun, ABodyThatRubsTakesLongStepsDownASlope) {
   const CaseRun run =
       run_text(bead_case(R"(, "friction": {"coefficient": 0.2})", "[]", R"({"end_time": 1.5})"), {radau});

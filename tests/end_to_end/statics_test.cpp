@@ -23,11 +23,6 @@ CaseRun run(const std::string& name, const std::vector<std::string>& overrides =
   return result;
 }
 
-CaseRun run_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const test::TemporaryDirectory directory;
-  return test::run_file(directory.write("case.json", text), overrides);
-}
-
 std::string set(const std::string& path, double value) {
   std::ostringstream text;
   text.precision(17);
@@ -48,7 +43,7 @@ TEST(Frame, IsWhereItsLoadInStepsBringsIt) {
     "supports": [{ "beam": "w", "at": "start", "type": "clamped" }],
     "loads": [{ "beam": "w", "at": "end", "force": [-12089.8, 0, -31007.9] }], "analysis": { "type": "static" },
     "output": { "report": false, "probes": [{ "name": "e", "beam": "w", "at": "end" }] } })";
-  const CaseRun once = run_text(frame), steps = run_text(frame, {"analysis.load_steps=50"});
+  const CaseRun once = test::run_text(frame), steps = test::run_text(frame, {"analysis.load_steps=50"});
   ASSERT_EQ(once.code, 0) << once.messages;
   ASSERT_EQ(steps.code, 0) << steps.messages;
   EXPECT_NEAR(once.last("e.x [m]"), steps.last("e.x [m]"), 1e-7);
@@ -68,7 +63,7 @@ TEST(Cantilever, GoesWithItsClampInSteps) {
     "analysis": { "type": "static", "load_steps": 5 },
     "output": { "report": false, "probes": [{ "name": "e", "beam": "b", "at": "end" }] } })";
   for (const char* torsion : {"true", "false"}) {
-    const CaseRun r = run_text(cantilever, {std::string("beams[0].torsion=") + torsion});
+    const CaseRun r = test::run_text(cantilever, {std::string("beams[0].torsion=") + torsion});
     ASSERT_EQ(r.code, 0) << r.messages;
     ASSERT_EQ(r.rows.size(), 5u);
     EXPECT_NEAR(r.value(2, "e.z [m]"), 0.02, 1e-9);
@@ -79,7 +74,7 @@ TEST(Cantilever, GoesWithItsClampInSteps) {
 }
 
 TEST(SimpleBeam, TiltsWithItsSupportInSteps) {
-  const CaseRun r = run_text(R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+  const CaseRun r = test::run_text(R"({ "nurbeam": 1, "gravity": [0, 0, 0],
     "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] },
       "section": { "rectangle": [0.03, 0.02] }, "material": { "density": 1000, "youngs_modulus": 2e11 },
       "elements": { "count": 8 } }],
@@ -128,15 +123,16 @@ TEST(SnapThrough, OfATrussIsToldWithTheLoadThatItIsUnder) {
     "output": { "report": false } })";
   const std::string told = "the model snaps through or buckles under ";
   for (const double over : {1.3, 4.0, 30.0}) {
-    const CaseRun beyond = run_text(truss, {set_y("loads[0].force", -over * greatest)});
+    const CaseRun beyond = test::run_text(truss, {set_y("loads[0].force", -over * greatest)});
     ASSERT_EQ(beyond.code, 0) << beyond.messages;
     const auto at = beyond.messages.find(told);
     ASSERT_NE(at, std::string::npos) << over << beyond.messages;
     EXPECT_NEAR(std::stod(beyond.messages.substr(at + told.size())), 1 / over, 2e-3) << over;
   }
-  const CaseRun steps = run_text(truss, {set_y("loads[0].force", -4 * greatest), "analysis.load_steps=10"});
+  const CaseRun steps =
+      test::run_text(truss, {set_y("loads[0].force", -4 * greatest), "analysis.load_steps=10"});
   EXPECT_TRUE(steps.says(told + "0.25 of its loads")) << steps.messages;
-  const CaseRun below = run_text(truss, {set_y("loads[0].force", -0.97 * greatest)});
+  const CaseRun below = test::run_text(truss, {set_y("loads[0].force", -0.97 * greatest)});
   ASSERT_EQ(below.code, 0) << below.messages;
   EXPECT_FALSE(below.says(told)) << below.messages;
 }
@@ -154,7 +150,7 @@ TEST(SnapThrough, IsToldOfAStraightStrutThatBuckles) {
   const auto pressed = [&](double over) {
     const std::string force = set("loads[0].force", -over * euler);
     const auto value = force.find('=') + 1;
-    return run_text(strut, {force.substr(0, value) + "[" + force.substr(value) + ",0,0]"});
+    return test::run_text(strut, {force.substr(0, value) + "[" + force.substr(value) + ",0,0]"});
   };
   EXPECT_TRUE(pressed(1.6).says("buckles under 0.62")) << pressed(1.6).messages;
   EXPECT_FALSE(pressed(0.99).says("buckles")) << pressed(0.99).messages;
@@ -173,11 +169,11 @@ TEST(SnapThrough, IsToldOfWhatHeatThrustOrWeightBuckles) {
   };
   const std::string held = bar("[1, 0, 0]", R"(, { "beam": "b", "at": "end", "type": "clamped" })"),
                     stands = bar("[0, 0, 1]", ""), weightless = "gravity=[0, 0, 0]";
-  const CaseRun hot = run_text(held, {weightless, "beams[0].temperature=60"}),
-                warm = run_text(held, {weightless, "beams[0].temperature=38"}),
-                pressed = run_text(held, {weightless, "beams[0].tension=-12000"}),
-                heavy = run_text(stands, {}),
-                in_steps = run_text(stands, {"analysis.load_steps=[0.1, 0.5, 1]"});
+  const CaseRun hot = test::run_text(held, {weightless, "beams[0].temperature=60"}),
+                warm = test::run_text(held, {weightless, "beams[0].temperature=38"}),
+                pressed = test::run_text(held, {weightless, "beams[0].tension=-12000"}),
+                heavy = test::run_text(stands, {}),
+                in_steps = test::run_text(stands, {"analysis.load_steps=[0.1, 0.5, 1]"});
   for (const CaseRun* run : {&hot, &warm, &pressed, &heavy, &in_steps})
     ASSERT_EQ(run->code, 0) << run->messages;
   EXPECT_TRUE(hot.says("buckles under 0.65")) << hot.messages;
@@ -194,7 +190,7 @@ TEST(SnapThrough, IsNotToldOfWhatMovesFar) {
   EXPECT_FALSE(bent.says("buckles")) << bent.messages;
   const CaseRun rolled = run("rollup.json");
   EXPECT_FALSE(rolled.says("buckles")) << rolled.messages;
-  const CaseRun hanging = run_text(R"({ "nurbeam": 1, "gravity": [0, -9.81, 0], "beams": [{ "name": "b",
+  const CaseRun hanging = test::run_text(R"({ "nurbeam": 1, "gravity": [0, -9.81, 0], "beams": [{ "name": "b",
       "axis": { "polyline": [[0, 0, 0], [10, 0, 0]] }, "section": { "radius": 0.002 },
       "unstressed_length": 10.5, "material": { "density": 7850, "youngs_modulus": 2e11 },
       "elements": { "count": 20 } }],
@@ -209,7 +205,7 @@ TEST(SnapThrough, IsNotToldOfWhatMovesFar) {
 TEST(SnapThrough, IsNotToldOfARoundRodThatMayRollInItsPlace) {
   const auto rod = [](const std::string& end, const std::string& second, double at, const std::string& load,
                       const std::vector<std::string>& overrides = {}) {
-    return run_text(
+    return test::run_text(
         R"({ "nurbeam": 1, "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], )" + end +
             R"(] }, "section": { "radius": 0.01 }, "material": { "name": "steel" }, "torsion": true,
         "elements": { "count": 10 } }],
@@ -257,7 +253,7 @@ TEST(Strut, ThatIsHeatedBucklesUnderLoadsWithoutEnergyToo) {
         R"({ "beam": "b", "at": { "fraction": 0.4 }, "moment": [0, 20, 0] })",
         R"({ "beam": "b", "at": { "fraction": 0.4 }, "moment": [0, 0, 20] })",
         R"({ "beam": "b", "torque_per_length": 20 })"}) {
-    const CaseRun r = run_text(strut(
+    const CaseRun r = test::run_text(strut(
         R"("section": { "rectangle": [0.02, 0.03] }, "torsion": true, "temperature": 100)", load, true));
     ASSERT_EQ(r.code, 0) << load << r.messages;
     EXPECT_NEAR(r.last("A.fz [N]"), N, 2e-3 * N) << load;
@@ -290,8 +286,8 @@ const std::string round = R"("section": { "radius": 0.01 })";
 const double round_EI = 2.1e11 * pi * 1e-8 / 4;
 
 TEST(Strut, InAPlaneBucklesBesideALoadThatFollows) {
-  const CaseRun r = run_text(strut(round, force(R"("end")", 0, -4 * pi * pi / 16 * round_EI) + ", " +
-                                              force(R"({ "fraction": 0.5 })", 0.01, 0, true)));
+  const CaseRun r = test::run_text(strut(round, force(R"("end")", 0, -4 * pi * pi / 16 * round_EI) + ", " +
+                                                    force(R"({ "fraction": 0.5 })", 0.01, 0, true)));
   ASSERT_EQ(r.code, 0) << r.messages;
   EXPECT_NEAR(r.last("e.z [m]"), buckled_end(4).along, 2e-3);
   EXPECT_NEAR(std::abs(r.last("e.ux [m]")), buckled_end(4).across, 2e-3);
@@ -300,9 +296,9 @@ TEST(Strut, InAPlaneBucklesBesideALoadThatFollows) {
 // Without anything that breaks the symmetry about its axis one state is as good as all around it.
 TEST(Strut, ThatIsRoundAndHasTorsionBucklesIntoAnyPlane) {
   for (const double lateral : {0.0, 1e-3, 1e-2, 0.1}) {
-    const CaseRun r =
-        run_text(strut(round + R"(, "torsion": true)", force(R"("end")", 0, -3.9 * pi * pi / 16 * round_EI) +
-                                                           ", " + force(R"("end")", lateral, 0)));
+    const CaseRun r = test::run_text(
+        strut(round + R"(, "torsion": true)",
+              force(R"("end")", 0, -3.9 * pi * pi / 16 * round_EI) + ", " + force(R"("end")", lateral, 0)));
     ASSERT_EQ(r.code, 0) << lateral << r.messages;
     EXPECT_NEAR(r.last("e.z [m]"), buckled_end(3.9).along, 2e-3) << lateral;
     EXPECT_NEAR(std::hypot(r.last("e.ux [m]"), r.last("e.uy [m]")), buckled_end(3.9).across, 2e-3) << lateral;
@@ -313,12 +309,12 @@ TEST(Strut, ThatIsRoundAndHasTorsionBucklesIntoAnyPlane) {
 // keeps its direction. The force of 40 nothing holds, with any damping.
 TEST(Strut, UnderAForceThatFollowsItsEndStaysStraight) {
   for (const double P : {2.4, 5.0, 10.0, 19.0}) {
-    const CaseRun r = run_text(strut(round, force(R"("end")", 0, -P * round_EI / 4, true)));
+    const CaseRun r = test::run_text(strut(round, force(R"("end")", 0, -P * round_EI / 4, true)));
     ASSERT_EQ(r.code, 0) << P << r.messages;
     EXPECT_LT(std::abs(r.last("e.ux [m]")), 1e-9) << P;
     EXPECT_FALSE(r.says("unstable")) << P;
   }
-  const CaseRun r = run_text(strut(round, force(R"("end")", 0, -40 * round_EI / 4, true)));
+  const CaseRun r = test::run_text(strut(round, force(R"("end")", 0, -40 * round_EI / 4, true)));
   EXPECT_TRUE(r.says("the equilibrium is unstable")) << r.messages;
 }
 
@@ -373,7 +369,7 @@ TEST(Catenary, HangsFromAStraightLineThatIsTooShortForIt) {
       "supports": [{ "beam": "wire", "at": "start", "type": "pinned" },
                    { "beam": "wire", "at": "end", "type": "pinned" }],
       "analysis": { "type": "static" }, "output": { "report": false } })";
-    const CaseRun r = run_text(text.str());
+    const CaseRun r = test::run_text(text.str());
     ASSERT_EQ(r.code, 0) << wire.radius << " " << wire.length << r.messages;
     const double area = pi * wire.radius * wire.radius;
     const StringLaw rope{.EA = 2e11 * area, .w = 7850 * 9.81 * area};
@@ -396,7 +392,7 @@ TEST(Catenary, HangsFromAStraightWireOnAnyMesh) {
       "supports": [{ "beam": "wire", "at": "start", "type": "pinned" },
                    { "beam": "wire", "at": "end", "type": "pinned" }],
       "analysis": { "type": "static" }, "output": { "report": false } })";
-    const CaseRun r = run_text(text.str());
+    const CaseRun r = test::run_text(text.str());
     ASSERT_EQ(r.code, 0) << elements << r.messages;
     EXPECT_FALSE(r.says("warning")) << r.messages;
     EXPECT_NEAR(r.last("wire.sag [m]"), sag, (elements < 100 ? 1e-3 : 1e-4) * sag) << elements;
@@ -420,7 +416,7 @@ TEST(Fork, OfABeamThatIsUnloadedHoldsItsTorque) {
              << place << R"( }, "force": [0, 0, )" << -force << R"(], "time": [[0, 1], [1, 0]] },
                     { "beam": "b", "at": "end", "moment": [2, 0, 0], "time": [[0, 1], [1, 1]] }],
           "analysis": { "type": "static", "load_steps": [0.5, 1] }, "output": { "report": false } })";
-        const CaseRun r = run_text(text.str());
+        const CaseRun r = test::run_text(text.str());
         ASSERT_EQ(r.code, 0) << r.messages;
         EXPECT_NEAR(r.last("S.mx [N m]"), -2, 1e-6) << elements << " " << place << " " << force;
       }
@@ -440,7 +436,7 @@ TEST(Catenary, HangsWhereAnArchWouldStandToo) {
              << length << R"(, "elements": { "count": 12 } }], "supports": [{ "beam": "wire", "at": "start)"
              << ends << R"(, { "beam": "wire", "at": "end)" << ends << R"(], "analysis": { "type": "static" },
             "output": { "report": false, "probes": [{ "name": "m", "beam": "wire", "at": { "fraction": 0.5 } }] } })";
-        const CaseRun r = run_text(text.str());
+        const CaseRun r = test::run_text(text.str());
         ASSERT_EQ(r.code, 0) << r.messages;
         EXPECT_LT(r.last("m.z [m]"), -0.15) << support << length << " " << weight;
       }

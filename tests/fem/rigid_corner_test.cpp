@@ -54,6 +54,7 @@ struct Frame {
     make_corner(cornered.beams[0], static_cast<int>(corner));
     joined.beams = {beam_on(column_axis, dimension, properties),
                     beam_on({whole.begin() + corner, whole.end()}, dimension, properties)};
+    joined.beams[0].home.back().joined = joined.beams[1].home.front().joined = true;
     column = joined.beams[0].curve.length();
     joined.constraints.push_back(BeamJoint{0, column, 1, 0, true});
   }

@@ -72,7 +72,7 @@ inline BeamModel torsion_sliding_model(std::mt19937& random, double point_roll) 
   on_point.offset = {-0.15, 0.1};
   builder.clamp(0, 0);
   builder.add(BeamJoint{0, L, 1, 0, false, {}, Eigen::Vector3d(1, 0.4, -0.3)});
-  builder.add(Support{1, M, false, false, {}, {}, Eigen::Vector3d(0.2, 1, 0.5)});
+  builder.add(Support{.beam = 1, .s = M, .axis = Eigen::Vector3d(0.2, 1, 0.5)});
   const Eigen::Vector3d force(1, -2, 3);
   for (const bool follower : {false, true})
     for (const double s : {0.1 * L, 0.65 * L})

@@ -4,8 +4,8 @@
 
 #include "fem/system/initial_state.h"
 #include "solver/steps/generalized_alpha.h"
-#include "solver/steps/ida_integrator.h"
 #include "solver/system/consistent.h"
+#include "tests/support/ida/ida_integrator.h"
 #include "tests/support/models.h"
 
 namespace nurbeam {

@@ -60,6 +60,27 @@ def test_only_curves_are_written(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+NAMES = ["x') y", "b (m')", "5') b", "a'", "''", "',(", "#1=CARTESIAN_POINT('',(0.,0.,0.));", "/* no comment", "=1+1", "-x", "Br\u00fcckenseil",
+         "a;b", "\\X2\\", "<b>&amp;", "x" * 250]
+
+
+@pytest.mark.parametrize("extension", ["step", "iges", "json"])
+def test_names_come_back_from_files(extension, tmp_path):
+    lines = [nb.Curve.line([0, 0, i], [1, 0, i], name=name) for i, name in enumerate(NAMES)]
+    nb.write(tmp_path / f"all.{extension}", lines)
+    assert sorted(nb.read(tmp_path / f"all.{extension}").names) == sorted(NAMES)
+    for line in lines:
+        nb.write(tmp_path / f"one.{extension}", line)
+        assert nb.read(tmp_path / f"one.{extension}").names == [line.name]
+
+
+@pytest.mark.parametrize("name, rule", [("a\nb", "must not hold"), ("\0", "must not hold"), ("x" * (1 << 20), "at most 250")])
+def test_names_that_no_file_holds_are_refused(name, rule, tmp_path):
+    with pytest.raises(ValueError, match=f"the name of curve 1 .*{rule}") as refused:
+        nb.write(tmp_path / "a.dxf", nb.Curve.line([0, 0, 0], [1, 0, 0], name=name))
+    assert len(str(refused.value)) < 200 and not list(tmp_path.iterdir())
+
+
 def test_curves_are_pickled_to_the_bit():
     curve = nb.Curve(np.random.default_rng(2).normal(size=(6, 3)), weights=[1, 0.3, 1.7, 1, 3, 1], name="rail")
     curve.facts["layer"] = "cables"

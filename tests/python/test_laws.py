@@ -106,7 +106,7 @@ class Stop(Exception):
 
 
 @pytest.mark.parametrize(
-    "analysis", [{"end_time": 1, "step": 1e-2}, {"end_time": 1, "integrator": {"type": "ida"}}, {"type": "static"}]
+    "analysis", [{"end_time": 1, "step": 1e-2}, {"end_time": 1, "integrator": {"type": "radau"}}, {"type": "static"}]
 )
 def test_what_a_law_raises_comes_out_unchanged(analysis, tmp_path):
     raised = Stop("enough")

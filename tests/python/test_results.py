@@ -129,7 +129,7 @@ def assert_alike(a, b):
 
 def test_snapshots_are_numbered(results):
     assert results[np.int64(1)].time == results[1].time
-    with pytest.raises(TypeError, match="the number of a snapshot is 1.5; expected a whole number or a slice"):
+    with pytest.raises(TypeError, match="the number of a snapshot is 1.5; expected a whole number, a slice or the name of a history"):
         results[1.5]
     with pytest.raises(KeyError, match='there is no beam "rope"; known: "wire"'):
         results[0].beams["rope"]

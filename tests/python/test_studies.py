@@ -206,3 +206,32 @@ def test_columns_have_the_names_of_variables_and_quantities():
                       "quantities": [{"name": "f [x]", "value": "'mass [kg]' + 'mass [lb]'"}], "plan": {"grid": 2}}, jobs=1)
     assert list(study) == ["mass [kg]", "mass [lb]", "f [x]"]
     assert np.array_equal(study["f [x]"], study["mass [kg]"] + study["mass [lb]"])
+
+
+def test_small_studies_run_in_this_process():
+    model = straight_cantilever(tip=[0, 0, -1])
+    model.add_probe("tip", "rod", "end")
+    radii = np.linspace(0.004, 0.008, 20)
+    begin = time.process_time()
+    found = nb.vary(model, {"beams[rod].section.radius": radii}, {"sink": "tip.uz", "force": lambda r: r["reaction.rod.start.fz"][-1]},
+                    type="static")  # fmt: skip
+    assert time.process_time() - begin < 0.3
+    assert np.array_equal(found["beams[rod].section.radius"], radii)
+    # F L^3/(3 E I), less what a large deflection has of it.
+    assert np.allclose(found["sink"], -1 / (3 * 210e9 * np.pi / 4 * radii**4), rtol=2e-3)
+    assert np.allclose(found["force"], 1, rtol=1e-6)
+    assert model.case["beams"][0]["section"]["radius"] == 0.005
+
+
+def test_variants_that_are_none_are_told():
+    model = straight_cantilever(tip=[0, 0, -1])
+    model.add_probe("tip", "rod", "end")
+    with pytest.warns(nb.CaseWarning, match="2 of 4 variants are not done; variant 2: .*radius"):
+        found = nb.vary(model, {"beams[rod].section.radius": [0.005, -1], "loads[0].force[2]": [-1, -2]}, {"sink": "tip.uz"},
+                        grid=True, type="static")  # fmt: skip
+    assert found["sink"][1] == pytest.approx(2 * found["sink"][0], rel=1e-2)
+    assert np.isnan(found["sink"][2:]).all()
+    with pytest.raises(ValueError, match="different numbers"):
+        nb.vary(model, {"loads[0].force[2]": [1], "loads[0].force[1]": [1, 2]}, {"sink": "tip.uz"}, type="static")
+    with pytest.raises(KeyError, match="radus"):
+        nb.vary(model, {"beams[rod].section.radus": [1]}, {"sink": "tip.uz"}, type="static")

@@ -26,6 +26,9 @@ class DenseSystem : public SecondOrderSystem {
     dense.bottomLeftCorner(m, n) = jacobian;
   }
 
+  Eigen::VectorXd constraint_product(const State& state, const Eigen::VectorXd& x) const override {
+    return constraint_jacobian(state) * x;
+  }
   Eigen::VectorXd constraint_rate(const State&) const override {
     return Eigen::VectorXd::Zero(constraint_count());
   }

@@ -15,6 +15,7 @@ class CartesianPendulum : public DenseSystem {
   double point_mass = 2;
   double length = 1.5;
   double gravity = 9.81;
+  double viscosity = 0;  ///< force against the velocity [N s/m]
   /// The force is not a number from this time on.
   double failure_time = std::numeric_limits<double>::infinity();
   /// The configuration means nothing from this x on.
@@ -28,7 +29,7 @@ class CartesianPendulum : public DenseSystem {
                 Eigen::Ref<Eigen::VectorXd> constraints) const override {
     const double weight =
         state.t >= failure_time ? std::numeric_limits<double>::quiet_NaN() : point_mass * gravity;
-    dynamics = point_mass * state.a + state.q * state.lambda[0];
+    dynamics = point_mass * state.a + viscosity * state.v + state.q * state.lambda[0];
     dynamics[1] += weight;
     constraints[0] = 0.5 * (state.q.squaredNorm() - length * length);
   }
@@ -77,6 +78,7 @@ class CartesianPendulum : public DenseSystem {
 
  protected:
   Eigen::MatrixXd mass(const State&) const override { return point_mass * Eigen::Matrix2d::Identity(); }
+  Eigen::MatrixXd damping(const State&) const override { return viscosity * Eigen::Matrix2d::Identity(); }
   Eigen::MatrixXd stiffness(const State& state) const override {
     return state.lambda[0] * Eigen::Matrix2d::Identity();
   }
@@ -119,6 +121,7 @@ class DrivenSlider : public DenseSystem {
 
   int coordinate_count() const override { return 2; }
   int constraint_count() const override { return 1; }
+  bool has_constant_constraints() const override { return true; }
   void residual(const State& state, Eigen::Ref<Eigen::VectorXd> dynamics,
                 Eigen::Ref<Eigen::VectorXd> constraints) const override {
     dynamics = mass(state) * state.a + stiffness(state) * state.q;

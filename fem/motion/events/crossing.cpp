@@ -55,7 +55,7 @@ std::optional<Crossing> end_passed(const BeamSystem& system, const State& state)
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
     const ReferenceCurve& curve = model.beam_of(model.riders[j]).curve;
     const std::optional<PlaceMotion>& motion = model.riders[j].motion;
-    const bool by_table = motion && !motion->rows().empty();  // a table is known to stay on the beam
+    const bool by_table = motion && motion->rows();  // a table is known to stay on the beam
     if (curve.closed() || by_table || system.mesh().plan.modes[j] != Carried::point) continue;
     const double s = *place(system, state, j), beyond = landing_tolerance(model, j);
     if (s < -beyond) return Crossing{j, 0, false};

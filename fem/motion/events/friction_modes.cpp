@@ -16,13 +16,9 @@ namespace {
 
 constexpr double rest_speed = 1e-9;  // [m/s]: slower is at rest
 
-double stick_stiffness(const BeamModel& model, int rider) {
-  return model.riders[rider].friction->stiffness(model.body_of(model.riders[rider]).mass);
-}
-
 // Memory of a body that slides one way, with the spring stretched up to the bound, which follows the forces.
 FrictionMemory sliding(const BeamModel& model, int rider, double s, int way, double bound) {
-  return {way * bound / stick_stiffness(model, rider), s, way};
+  return {way * bound / model.stick_stiffness(model.riders[rider]), s, way};
 }
 
 // Opens contacts of bodies that are held and need no stop.
@@ -100,8 +96,9 @@ void break_loose(MeshedState& at, int rider) {
 void stick_at_bound(MeshedState& at, int rider, int way) {
   const BeamModel& model = at.system->model();
   const double bound = sliding_friction(*at.system, at.state, rider)->bound;
-  set_friction_memory(at.system->mesh().memory, at.state.memory, rider,
-                      {way * bound / stick_stiffness(model, rider), *place(*at.system, at.state, rider), 0});
+  set_friction_memory(
+      at.system->mesh().memory, at.state.memory, rider,
+      {way * bound / model.stick_stiffness(model.riders[rider]), *place(*at.system, at.state, rider), 0});
 }
 
 }  // namespace
@@ -135,18 +132,20 @@ std::vector<int> joints_with_friction(const BeamSystem& system) {
   return riders;
 }
 
-bool start_memory(MeshedState& at, double step) {
+std::optional<std::vector<LooseBody>> start_memory(MeshedState& at, double step) {
   at.state.memory = no_memory(at.system->mesh().memory);
   start_connectors(at);
   return settle_friction(at, joints_with_friction(*at.system), step, false);
 }
 
-bool settle_friction(MeshedState& at, const std::vector<int>& riders, double step, bool at_rest) {
+std::optional<std::vector<LooseBody>> settle_friction(MeshedState& at, const std::vector<int>& riders,
+                                                      double step, bool at_rest) {
   const BeamModel& model = at.system->model();
   const auto remember = [&](int j, const FrictionMemory& memory) {
     set_friction_memory(at.system->mesh().memory, at.state.memory, j, memory);
   };
   std::vector<int> still;
+  std::vector<LooseBody> loose;
   const std::vector<bool> blocked = blocked_joints(*at.system);
   for (const int j : riders) {
     const double s = *place(*at.system, at.state, j), rate = place_rate(*at.system, at.state, j);
@@ -162,7 +161,7 @@ bool settle_friction(MeshedState& at, const std::vector<int>& riders, double ste
   for (bool all_stick = still.empty(); !all_stick;) {
     const std::vector<int> holding = independent(at, still, step);
     const std::optional<HeldMoment> moment = hold(at, holding, step);
-    if (!moment) return false;
+    if (!moment) return {};
     all_stick = true;
     std::vector<int> stick;
     for (const int j : still) {
@@ -176,17 +175,18 @@ bool settle_friction(MeshedState& at, const std::vector<int>& riders, double ste
       const double needed = holding_force(moment->system, held, j) / friction.per_along;
       const double s = *place(*at.system, at.state, j);
       if (std::abs(needed) <= friction.bound) {
-        remember(j, {-needed / stick_stiffness(model, j), s, 0});
+        remember(j, {-needed / model.stick_stiffness(model.riders[j]), s, 0});
         stick.push_back(j);
         continue;
       }
       remember(j, sliding(model, j, s, needed < 0 ? 1 : -1, friction.bound));
+      loose.push_back({j, std::abs(needed), friction.bound});
       all_stick = false;
     }
     still = std::move(stick);
     all_stick = all_stick || still.empty();
   }
-  return true;
+  return loose;
 }
 
 bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, double step) {
@@ -196,7 +196,30 @@ bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, d
     const double jump = place_rate(*at.system, at.state, j) - place_rate(*before.system, before.state, j);
     return was[j] == is[j] && std::abs(jump) < rest_speed;
   });
-  return settle_friction(at, changed, step, false);
+  return settle_friction(at, changed, step, false).has_value();
+}
+
+double wrap(const BeamSystem& system, const State& state, int rider) {
+  const Mesh& mesh = system.mesh();
+  const int node = mesh.riders[rider].node, D = system.dimension();
+  if (node < 0) return 0;
+  const MeshNode& at = mesh.nodes[system.model().riders[rider].beam][node];
+  if (at.slope_left == at.slope_right) return 0;
+  const Eigen::VectorXd left = state.q.segment(at.slope_left, D).normalized(),
+                        right = state.q.segment(at.slope_right, D).normalized();
+  return 2 * std::atan2((right - left).norm(), (right + left).norm());
+}
+
+std::optional<Failure> excess_of_wrap(const MeshedState& at) {
+  const BeamModel& model = at.system->model();
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
+    const std::optional<Friction>& friction = model.riders[j].friction;
+    if (!friction || friction->law != Friction::Law::coulomb || friction->sticking_coefficient() == 0)
+      continue;
+    if (const double angle = wrap(*at.system, at.state, j); angle > most_wrap_of_coulomb)
+      return Failure{.kind = Failure::Kind::wrap, .time = at.state.t, .rider = j, .wrap = angle};
+  }
+  return {};
 }
 
 double holding_capacity(const BeamSystem& system, const State& state, int rider, bool sticking) {
@@ -220,7 +243,7 @@ void hold_by_friction(MeshedState& at, const std::vector<bool>& except) {
     const double along =
         holding_force(*at.system, at.state, j) / sliding_friction(*at.system, held, j)->per_along;
     set_friction_memory(at.system->mesh().memory, held.memory, j,
-                        {-along / stick_stiffness(at.system->model(), j), s, 0});
+                        {-along / at.system->model().stick_stiffness(at.system->model().riders[j]), s, 0});
   }
   at.state.memory = held.memory;
 }

@@ -1,8 +1,10 @@
 #pragma once
+#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "fem/motion/record/run_event.h"
+#include "fem/motion/record/simulation_report.h"
 #include "fem/motion/remesh/meshed_state.h"
 
 /// Friction modes: which bodies stick to their beams and which slide.
@@ -16,13 +18,14 @@ std::vector<int> joints_with_friction(const BeamSystem& system);
 std::vector<bool> blocked_joints(const BeamSystem& system);
 
 /// Gives the state the memory of its forces. Bodies with friction that move slide. Bodies at rest stick where
-/// they are, with the force that holds them there, or slide the way that they are pulled. `step`: see
-/// make_accelerations_smooth. False where the mass matrix is singular.
-[[nodiscard]] bool start_memory(MeshedState& at, double step);
+/// they are, with the force that holds them there, or slide the way that they are pulled: these are returned.
+/// `step`: see make_accelerations_smooth. Nothing where the mass matrix is singular.
+[[nodiscard]] std::optional<std::vector<LooseBody>> start_memory(MeshedState& at, double step);
 /// Sets the friction memory of some of the bodies anew; with `at_rest` they count as at rest however they
 /// move.
-[[nodiscard]] bool settle_friction(MeshedState& at, const std::vector<int>& riders, double step,
-                                   bool at_rest);
+[[nodiscard]] std::optional<std::vector<LooseBody>> settle_friction(MeshedState& at,
+                                                                    const std::vector<int>& riders,
+                                                                    double step, bool at_rest);
 
 /// Sets the friction memory anew after stops have been met or left: for bodies whose velocities this has
 /// changed, and for bodies that rest against stops now or did before.
@@ -34,6 +37,13 @@ double holding_capacity(const BeamSystem& system, const State& state, int rider,
 /// Gives a state at rest, in which bodies are held, the memory of friction that holds them instead, except
 /// for the riders `except`.
 void hold_by_friction(MeshedState& at, const std::vector<bool>& except);
+/// The angle [rad] by which a beam turns at the kink of a rider's body; 0 without a kink.
+double wrap(const BeamSystem& system, const State& state, int rider);
+/// The largest wrap that Coulomb's law is for [rad]: its bound grows without limit towards 180 degrees.
+inline constexpr double most_wrap_of_coulomb = 2 * std::numbers::pi / 3;
+/// The first body with friction by Coulomb's law at a larger wrap.
+[[nodiscard]] std::optional<Failure> excess_of_wrap(const MeshedState& at);
+
 /// A body that turns round in a step while it slides, or that breaks loose.
 struct FrictionChange {
   int rider;

@@ -11,14 +11,6 @@ namespace nurbeam {
 
 namespace {
 
-// Slopes of a table on both sides of one of its rows.
-std::pair<double, double> slopes_at(const TimeTable& table, std::size_t row) {
-  const auto slope = [&](std::size_t from) {
-    return (table[from + 1].second - table[from].second) / (table[from + 1].first - table[from].first);
-  };
-  return {row > 0 ? slope(row - 1) : 0, row + 1 < table.size() ? slope(row) : 0};
-}
-
 // Adds the times at which a moving load leaves its beam: place_of() knows it up to twice its round-off beyond
 // the end.
 void add_leaving(const LoadAtPlace& load, const Beam& beam, std::vector<double>& times) {
@@ -26,6 +18,43 @@ void add_leaving(const LoadAtPlace& load, const Beam& beam, std::vector<double>&
   const double length = beam.curve.length(), way = load.speed > 0 ? length - load.s : -load.s;
   times.push_back(way / load.speed);
   times.push_back((way + std::copysign(2e-12 * length, load.speed)) / load.speed);
+}
+
+// Calls visit(rows) for the curve through the rows of each component of a moved support.
+template <class Visit>
+void for_each_moved_support(const BeamModel& model, const Visit& visit) {
+  for (const Constraint& constraint : model.constraints)
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (
+              requires { c.motion; })
+            if (c.motion)
+              for (const RowCurve& component : c.motion->components()) visit(component);
+        },
+        constraint);
+}
+
+// Adds the times of rows with a kink, or without one.
+void add_rows(const BeamModel& model, bool with_kink, std::vector<double>& times) {
+  const auto add = [&](const RowCurve& motion) {
+    for (std::size_t row = 0; row < motion.rows().size(); ++row)
+      if (motion.bends_at(row) == with_kink) times.push_back(motion.rows()[row].first);
+  };
+  for (const Rider& rider : model.riders)
+    if (rider.motion && rider.motion->rows()) add(*rider.motion->rows());
+  for_each_moved_support(model, add);
+}
+
+std::vector<double> in_order(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+bool jumps(const std::pair<double, double>& speeds) {
+  constexpr double same_speed = 1e-12;  // relative
+  const auto [before, after] = speeds;
+  return std::abs(after - before) > same_speed * (std::abs(before) + std::abs(after));
 }
 
 }  // namespace
@@ -36,7 +65,6 @@ std::vector<double> kink_times(const BeamModel& model) {
     for (const auto& [time, value] : table) times.push_back(time);
   };
   for (const Rider& rider : model.riders) {
-    if (rider.motion) add(rider.motion->rows());
     if (rider.friction) add(rider.friction->force);
     if (rider.release) times.push_back(*rider.release);
   }
@@ -49,17 +77,14 @@ std::vector<double> kink_times(const BeamModel& model) {
         },
         force);
   for (const Beam& beam : model.beams) add(beam.properties.free_strain.thermal);
-  for (const Constraint& constraint : model.constraints)
-    std::visit(
-        [&](const auto& c) {
-          if constexpr (requires { c.motion; })
-            if (c.motion)
-              for (const auto& [time, value] : c.motion->rows()) times.push_back(time);
-        },
-        constraint);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
+  add_rows(model, true, times);
+  return in_order(std::move(times));
+}
+
+std::vector<double> seam_times(const BeamModel& model) {
+  std::vector<double> times;
+  add_rows(model, false, times);
+  return in_order(std::move(times));
 }
 
 double end_of_jump(const std::vector<double>& times, double time, double resolution) {
@@ -72,19 +97,23 @@ double end_of_jump(const std::vector<double>& times, double time, double resolut
 }
 
 std::vector<MotionKink> motion_kinks(const BeamModel& model, double time) {
-  constexpr double same_speed = 1e-12;  // relative
   std::vector<MotionKink> kinks;
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
-    if (!model.riders[j].motion) continue;
-    const TimeTable& table = model.riders[j].motion->rows();
-    for (std::size_t row = 0; row < table.size(); ++row) {
-      if (table[row].first != time) continue;
-      const auto [before, after] = slopes_at(table, row);
-      if (std::abs(after - before) > same_speed * (std::abs(before) + std::abs(after)))
-        kinks.push_back({j, before, after});
-    }
+    const std::optional<PlaceMotion>& motion = model.riders[j].motion;
+    if (!motion || !motion->rows()) continue;
+    const std::optional<std::pair<double, double>> speeds = motion->rows()->slopes_at(time);
+    if (speeds && jumps(*speeds)) kinks.push_back({j, speeds->first, speeds->second});
   }
   return kinks;
+}
+
+bool support_speed_jumps(const BeamModel& model, double time) {
+  bool any = false;
+  for_each_moved_support(model, [&](const RowCurve& motion) {
+    const std::optional<std::pair<double, double>> speeds = motion.slopes_at(time);
+    any = any || (speeds && jumps(*speeds));
+  });
+  return any;
 }
 
 }  // namespace nurbeam

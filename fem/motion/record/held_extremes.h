@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "fem/motion/record/element_peaks.h"
 #include "fem/motion/record/sag.h"
 #include "fem/motion/record/snapshot.h"
 
@@ -28,8 +29,8 @@ class HeldExtremes {
 
  private:
   struct Place {
-    int index;       ///< index of a span in the mesh or, for displacements, of a node of the beam
-    int sample = 0;  ///< in the element
+    int span;
+    double x;  ///< in parts of the element's length
   };
   /// One place on the beam; at a node it is both the end of an element and the start of the next.
   using SamePlace = std::vector<Place>;
@@ -38,7 +39,11 @@ class HeldExtremes {
     BeamPart part;
     std::vector<SamePlace> places = {};
     Lowest lowest = {};  ///< place of the sag, in the mesh
+    int layer = -1;      ///< index in BendingLayers of the layer that has the extreme, else -1
   };
+  static void hold_place(double s, const std::vector<ElementRecord>& elements, int first,
+                         std::vector<SamePlace>& places);
+  static void hold(const Place& place, std::vector<SamePlace>& places);
   template <class Value>
   static Extreme value_at(const std::vector<SamePlace>& places, double (*size)(double), const Value& value);
   std::vector<Held> held_;

@@ -14,12 +14,15 @@ struct Loading {
 };
 
 /// A system between two loadings: load factor 0 is `from`, 1 is `to`, on the way from an equilibrium under
-/// `from`. The tangent throws Interruption when the search is to end.
+/// `from`. The tangent throws Interruption when the search is to end. State::stabilisation is 0, as it would
+/// hinder states on the way, or rises from 0 to 1.
 class LoadedBetween final : public SecondOrderSystem {
  public:
+  enum class Stabilisation { none, rising };
+
   LoadedBetween(const SecondOrderSystem& system, Loading from, Loading to,
-                const std::function<bool()>& interrupted)
-      : system_(system), from_(from), to_(to), interrupted_(interrupted) {}
+                const std::function<bool()>& interrupted, Stabilisation stabilisation = Stabilisation::none)
+      : system_(system), from_(from), to_(to), interrupted_(interrupted), stabilisation_(stabilisation) {}
 
   Loading at(double factor) const {
     return {from_.load + (to_.load - from_.load) * factor, from_.t + (to_.t - from_.t) * factor};
@@ -48,6 +51,7 @@ class LoadedBetween final : public SecondOrderSystem {
  private:
   State loaded(State state) const {
     const Loading now = at(state.load);
+    state.stabilisation = stabilisation_ == Stabilisation::rising ? state.load : 0;
     state.load = now.load;
     state.t = now.t;
     return state;
@@ -56,6 +60,7 @@ class LoadedBetween final : public SecondOrderSystem {
   const SecondOrderSystem& system_;
   Loading from_, to_;
   const std::function<bool()>& interrupted_;
+  Stabilisation stabilisation_;
 };
 
 }  // namespace nurbeam

@@ -19,9 +19,9 @@ Chord chord_of(const BeamSystem& system, const State& state, int beam) {
           span_control_points(system, state, first_span[beam + 1] - 1), system.model().gravity};
 }
 
-// Whether a beam has no sag, without gravity or with a chord along gravity.
+// Whether a beam has no sag, without gravity or with an upright chord.
 bool has_none(const Chord& chord, const Eigen::Vector3d& gravity) {
-  return gravity.norm() == 0 || chord.is_vertical();
+  return gravity.norm() == 0 || chord.is_upright();
 }
 
 constexpr double no_sag = std::numeric_limits<double>::quiet_NaN();

@@ -15,7 +15,8 @@ class Chord {
   /// `first` and `last`: the control points of the elements at the ends.
   Chord(const Eigen::Matrix4d& first, const Eigen::Matrix4d& last, const Eigen::Vector3d& gravity);
 
-  bool is_vertical() const { return across_.norm() <= 1e-9 * std::max(along_.norm(), 1e-300); }
+  /// Whether the chord is within about six degrees of gravity. A depth below it says little of the beam then.
+  bool is_upright() const { return across_.norm() <= 0.1 * along_.norm(); }
   /// Depth of a point of an element below the chord [m].
   double depth(const RationalCubic& cubic, double u) const;
   /// Looks at the next element.
@@ -38,7 +39,7 @@ struct Lowest {
 /// The element with the lowest middle below the chord, which sag() looks at first.
 int lowest_element(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity);
 /// Sag: the maximum depth of a beam below the straight line between its ends, along `gravity` [m]; 0 where it
-/// is nowhere below. NaN without gravity, and where the ends lie above each other, as those of a ring do.
+/// is nowhere below. NaN without gravity, and where the chord is upright or of no length, as that of a ring.
 /// Precondition: there are elements.
 double sag(const std::vector<ElementRecord>& elements, const Eigen::Vector3d& gravity);
 /// Sag of a beam in a state, and its place, from the spans around `lowest`, the span with the lowest middle,

@@ -35,6 +35,7 @@ struct Failure {
     mesh_energy,      ///< a change of the mesh for the rider's body would change the energy by `energy`
     energy,           ///< more energy, `energy`, has come from nowhere than all motion has
     endless_events,   ///< events of the rider's body at one moment do not end
+    wrap,             ///< the beam turns by `wrap` at the rider's body, too much for its law of friction
     bodies_meet,      ///< bodies of two riders on one beam come as near as `nearest` or nearer
     equilibrium,      ///< the equilibrium is not found: `equilibrium`
     resting_place,    ///< the resting place of a sliding body is not found
@@ -56,6 +57,7 @@ struct Failure {
   StepStatus step = StepStatus::converged;
   StaticReport equilibrium = {};
   double energy = 0;  ///< [J]
+  double wrap = 0;    ///< [rad]
   /// The longest stable step of an explicit method, which the steps exceeded; 0 where that is not the reason
   /// [s].
   double stable_step = 0;
@@ -75,6 +77,12 @@ struct EnergyRange {
   double width() const { return std::max(0.0, greatest - least); }
 };
 
+/// A body at rest that needs more force along its beam than its friction can hold.
+struct LooseBody {
+  int rider;
+  double needed, bound;  ///< [N]
+};
+
 /// The outcome of a simulation, and its cost.
 struct SimulationReport {
   SimulationStatus status = SimulationStatus::done;
@@ -89,6 +97,8 @@ struct SimulationReport {
   /// Loading under which the model snaps through or buckles, in a search for rest.
   std::optional<Loading> snap;
   std::optional<LoosePart> loose;  ///< loose part of a mechanism, at the last rest
+  /// Bodies with friction that slide as soon as the motion starts from an equilibrium that holds them.
+  std::vector<LooseBody> loose_bodies;
   double motion_seconds = 0, length_control_seconds = 0;
   double energy_drift = 0;         ///< largest departure of the total energy from its start [J]
   double integration_error = 0;    ///< energy drift without what events changed [J]

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "fem/motion/record/beam_extremes.h"
+#include "fem/motion/record/element_peaks.h"
+#include "fem/motion/record/measures.h"
 #include "fem/motion/record/sag.h"
+#include "fem/system/bending_layers.h"
 #include "fem/system/observables.h"
 
 namespace nurbeam {
@@ -14,22 +16,22 @@ namespace {
 
 constexpr int at_once = 4096;  ///< elements that are handed over together
 
-// Finds the extremes among the elements of a record.
-void find_extremes(const ReferenceCurve& curve, BeamRecord& record) {
-  for (const ElementRecord& e : record.elements)
-    for (int i = 0; i < 4; ++i) {
-      const double s = curve.wrapped(e.s_start + (e.s_end - e.s_start) * i / 3);
-      for (const auto& [extreme, values, size, of_torsion] : element_extremes)
-        if (!of_torsion || !std::isnan(e.twist[i])) keep(record.*extreme, (e.*values)[i], s, size);
-    }
+// Looks for extremes in the layers of bending besides.
+void find_extremes(const BendingLayers& bent, BeamRecord& record) {
+  for (const LayerRecord& layer : bent.layers) {
+    const auto look = [&](Extreme& extreme, double value) {
+      keep(extreme, value, layer.s, ElementExtreme::magnitude, layer.reach);
+    };
+    if (std::isnan(layer.reach)) record.slack_kink = layer.s;
+    look(record.moment_max, layer.moment);
+    look(record.stress_max, layer.stress);
+    look(record.von_mises_max, layer.von_mises);
+  }
 }
 
-void find_displacement(const ReferenceCurve& curve, BeamRecord& record) {
-  for (std::size_t i = 0; i < record.node_s.size(); ++i) {
-    const double s = record.node_s[i];
-    keep(record.displacement_max, displacement(curve, record.node_positions[i], s), s,
-         ElementExtreme::itself);
-  }
+// The reference arc length of a node [m].
+double place_of(const ReferenceCurve& curve, const MeshNode& node, const State& state) {
+  return node.place >= 0 ? curve.wrapped(state.q[node.place]) : node.s;
 }
 
 // The record of a guide, which stays as drawn: its segments, with zero strains and forces.
@@ -38,6 +40,7 @@ BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& grav
   for (int j = 0; j < curve.segment_count(); ++j) {
     ElementRecord& element = record.elements.emplace_back();
     element.control_points = curve.segment(j).points();
+    element.drawn_points = element.control_points.colwise().hnormalized();
     element.s_start = curve.breaks()[j];
     element.s_end = curve.breaks()[j + 1];
     element.strain = element.axial_force = element.bending_moment = Eigen::Vector4d::Zero();
@@ -52,20 +55,24 @@ BeamRecord record_guide(const ReferenceCurve& curve, const Eigen::Vector3d& grav
   }
   record.length = curve.length();
   record.sag = sag(record.elements, gravity);
-  find_extremes(curve, record);
-  find_displacement(curve, record);
+  for (Extreme BeamRecord::*zero :
+       {&BeamRecord::axial_force_min, &BeamRecord::axial_force_max, &BeamRecord::moment_max,
+        &BeamRecord::shear_force_max, &BeamRecord::displacement_max})
+    record.*zero = {0, 0};
   return record;
 }
 
 // Records the elements of spans that follow one another. `twisted`: twist since the start of the beam, at the
 // end of the span before; it is moved on.
-void record_spans(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int first,
-                  int end, double& twisted, std::vector<ElementRecord>& elements) {
+void record_spans(const CarriedBySpans& carried, const BendingLayers& bent, const BeamSystem& system,
+                  const State& state, int first, int end, double& twisted,
+                  std::vector<ElementRecord>& elements) {
   elements.reserve(static_cast<std::size_t>(end - first));
   for (int i = first; i < end; ++i) {
     ElementRecord& element = elements.emplace_back(record_element(system, state, i, carried[i]));
     element.twist.array() += twisted;
     twisted = element.twist[3];
+    if (std::binary_search(bent.unseen.begin(), bent.unseen.end(), i)) blank_bending(element);
   }
 }
 
@@ -76,18 +83,20 @@ void hand_over(int beam, const TakeElements& take, BeamRecord& record) {
 }
 
 // Hands the elements over in stretches; their extremes and the sag stay in the record.
-void record_in_stretches(const CarriedBySpans& carried, const BeamSystem& system, const State& state, int b,
-                         const TakeElements& take, BeamRecord& record) {
+void record_in_stretches(const CarriedBySpans& carried, const BendingLayers& bent, const BeamSystem& system,
+                         const State& state, int b, const TakeElements& take, BeamRecord& record) {
   const int first = system.mesh().first_span[b], end = system.mesh().first_span[b + 1];
   Chord chord(span_control_points(system, state, first), span_control_points(system, state, end - 1),
               system.model().gravity);
   double twisted = 0;
+  BeamExtremes extremes(system, state, carried, b);
   for (int i = first; i < end; i += at_once) {
-    record_spans(carried, system, state, i, std::min(i + at_once, end), twisted, record.elements);
-    find_extremes(system.model().beams[b].curve, record);
+    record_spans(carried, bent, system, state, i, std::min(i + at_once, end), twisted, record.elements);
+    extremes.look_at(record.elements, i);
     for (const ElementRecord& element : record.elements) chord.look_at(element.control_points);
     hand_over(b, take, record);
   }
+  extremes.finish(record);
   record.sag = sag_near(system, state, b, first + chord.lowest()).depth;
 }
 
@@ -101,15 +110,19 @@ BeamRecord record_with(const CarriedBySpans& carried, const BeamSystem& system, 
     return record;
   }
   BeamRecord record;
+  const BendingLayers bent = bending_layers(system, state, carried, b);
   if (take) {
-    record_in_stretches(carried, system, state, b, take, record);
+    record_in_stretches(carried, bent, system, state, b, take, record);
   } else {
     double twisted = 0;
-    record_spans(carried, system, state, mesh.first_span[b], mesh.first_span[b + 1], twisted,
+    record_spans(carried, bent, system, state, mesh.first_span[b], mesh.first_span[b + 1], twisted,
                  record.elements);
-    find_extremes(curve, record);
+    BeamExtremes extremes(system, state, carried, b);
+    extremes.look_at(record.elements, mesh.first_span[b]);
+    extremes.finish(record);
     record.sag = sag(record.elements, system.model().gravity);
   }
+  find_extremes(bent, record);
   for (auto* each : {&record.node_positions, &record.node_slopes}) each->reserve(mesh.nodes[b].size());
   record.node_s.reserve(mesh.nodes[b].size());
   for (const MeshNode& node : mesh.nodes[b]) {
@@ -118,8 +131,23 @@ BeamRecord record_with(const CarriedBySpans& carried, const BeamSystem& system, 
     record.node_s.push_back(place_of(curve, node, state));
   }
   record.length = beam_length(system, state, b);
-  find_displacement(curve, record);
   return record;
+}
+
+// A place within this part of the beam's length is the same place.
+constexpr double same_place = 1e-9;
+
+double moved_to_side(const BeamSystem& system, const ProbePlace& probe, double from) {
+  const double little = same_place * system.model().beams[probe.beam].curve.length();
+  return probe.side == ProbePlace::Side::after ? from + little : from - little;
+}
+
+// Where the section of a probe is: on its side of what acts there.
+double section_place(const BeamSystem& system, const ProbePlace& probe, const SpanResultants& carried) {
+  const double little = same_place * system.model().beams[probe.beam].curve.length();
+  for (const SpanResultants::Inside& point : carried.inside())
+    if (std::abs(probe.s - point.action.s) <= little) return moved_to_side(system, probe, point.action.s);
+  return probe.s;
 }
 
 // The record of a place without its section.
@@ -142,7 +170,12 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state, const Pro
   ProbeRecord record = record_place(system, state, probe);
   if (system.model().beams[probe.beam].rigid) return record;
   const int span = probe.span < 0 ? span_of(system, state, probe) : probe.span;
-  record.section = section_at(system, state, span, CarriedBySpans(system, state)[span], probe.s);
+  const CarriedBySpans carried(system, state);
+  const SpanResultants in_span = carried[span];
+  const double s = section_place(system, probe, in_span);
+  record.section =
+      with_layers(system.model().beams[probe.beam], bending_layers(system, state, carried, probe.beam, span),
+                  span, s, section_at(system, state, span, in_span, s));
   record.section.twist += twist_before(system, state, span);
   return record;
 }
@@ -165,7 +198,7 @@ PointRecord record_body(const BeamSystem& system, const State& state, int body) 
 
 int span_of(const BeamSystem& system, const State& state, const ProbePlace& probe) {
   if (system.model().beams[probe.beam].rigid) return -1;
-  return find_span(system.model(), system.mesh(), state.q, probe.beam, probe.s);
+  return find_span(system.model(), system.mesh(), state.q, probe.beam, moved_to_side(system, probe, probe.s));
 }
 
 double twist_before(const BeamSystem& system, const State& state, int span) {
@@ -225,6 +258,8 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
     const auto [from, to] = connector_ends(system, state, i);
     snapshot.connectors.push_back({length, force, from, to});
   }
+  for (std::size_t i = 0; contents.measures && i < model.measures.size(); ++i)
+    snapshot.measures.push_back(record_measure(system, state, model.measures[i]));
   if (contents.energy) snapshot.energy = record_energy(energy(system, state));
   return snapshot;
 }

@@ -14,6 +14,8 @@ namespace nurbeam {
 struct Extreme {
   double value = std::numeric_limits<double>::quiet_NaN();
   double s = std::numeric_limits<double>::quiet_NaN();  ///< reference arc length [m]
+  /// Where the value is that of a layer of bending (BendingLayer): how far this reaches [m].
+  std::optional<double> layer = {};
 };
 
 struct BeamRecord {
@@ -27,7 +29,9 @@ struct BeamRecord {
   Extreme axial_force_min, axial_force_max;  ///< [N]
   Extreme moment_max, shear_force_max;       ///< maximum magnitude [N m], [N]
   Extreme stress_max;        ///< maximum magnitude [Pa]; NaN where the section does not give it
-  Extreme displacement_max;  ///< maximum displacement of a node from the drawing [m]
+  Extreme displacement_max;  ///< maximum displacement of the axis from the drawing [m]
+  /// The place of a kink without tension, whose moment and stress are not known [m].
+  std::optional<double> slack_kink = {};
   /// Maximum magnitudes for a beam with torsion, else NaN [N m], [rad], [Pa].
   Extreme torque_max, twist_max, von_mises_max;
 };
@@ -92,6 +96,7 @@ struct Snapshot {
   std::vector<BeamRecord> beams;
   std::vector<ReactionRecord> reactions;  ///< of the model's constraints, in order
   std::vector<ConnectorRecord> connectors;
+  std::vector<Extreme> measures;  ///< of the model's measures, in order; each with its place [m]
   EnergyRecord energy;
   std::vector<StepRecord> steps;  ///< since the previous frame
   double step = 0;                ///< last step size [s]
@@ -100,14 +105,17 @@ struct Snapshot {
 
 /// A place where a snapshot records position and velocity.
 struct ProbePlace {
+  enum class Side { before, after };
   int beam;
-  double s;       ///< [m]
-  int span = -1;  ///< span of the mesh whose element holds the place; -1: the span that holds s
+  double s;                 ///< [m]
+  int span = -1;            ///< span of the mesh whose element holds the place; -1: the span that holds s
+  Side side = Side::after;  ///< where forces or slopes jump at s, up to 1e-9 of the beam's length
 };
 
 /// Names in the order of the vectors of a Snapshot.
 struct SnapshotNames {
   std::vector<std::string> probes, bodies, beams, reactions, connectors;
+  std::vector<std::string> measures;  ///< with their quantity: "cable.sag_1", "ground.clearance"
   /// Whether beams have torsion, so that results include the sections' own axes.
   bool sections = false;
   /// Whether bodies have friction; whether the model has elastic parts other than beams.
@@ -121,6 +129,7 @@ struct SnapshotContents {
   bool sections = true;  ///< sections of probes; without them their SectionRecord is empty
   bool reactions = true;
   bool energy = true;
+  bool measures = true;
 };
 
 /// Takes elements of beams in their order, some at a time, beam after beam: a record of all would take much

@@ -2,8 +2,10 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <optional>
 #include <vector>
 
+#include "fem/element/quadrature.h"
 #include "fem/system/material_points.h"
 
 namespace nurbeam {
@@ -12,17 +14,36 @@ namespace {
 
 // The conditions on a node between two spans: their residuals, and their gradient in (r, l r_s).
 struct Conditions {
-  Eigen::Vector3d excess;
-  Eigen::Matrix<double, 3, 6> gradient;
+  Eigen::VectorXd excess;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> gradient;
 };
 
+// The Legendre coefficient e_k, k = 0..2, of a strain over the part [x_1, x_2] of its element.
+double coefficient(const AssumedStrain& strain, int k, double x_1, double x_2) {
+  double sum = 0;
+  for (int g = 0; g < GaussRule::size; ++g) {
+    const double x = x_1 + (x_2 - x_1) * GaussRule::points[g];
+    sum += strain_weights(x, GaussRule::weights[g] * (x_2 - x_1), x_1, x_2 - x_1)[k] * strain.at(x);
+  }
+  return sum;
+}
+
+// The matched node between two spans. Both spans are to carry the strain that one had before: means and the
+// value at the node, and what else the assumed strain takes of spans with own slopes.
 class NodeMatch {
  public:
   /// `drawn`: any state of `to` with the same ends of spans.
   NodeMatch(const BeamSystem& to, const State& drawn, const MeshNode& node, int left, int right,
             const AssumedStrain& strain, double length, double xi)
-      : to_(to), node_(node), left_(to, drawn, left), right_(to, drawn, right), length_(length) {
-    wanted_ << length * strain.mean_part(0, xi), length * strain.mean_part(xi, 1), length * strain.at(xi);
+      : to_(to), node_(node), length_(length) {
+    const std::array<OwnSlopes, 2> own{own_slopes(to, left), own_slopes(to, right)};
+    for (const int side : {0, 1})
+      for (int k = 0; k <= own[static_cast<std::size_t>(side)].count(); ++k) {
+        const double from = side == 0 ? 0 : xi, until = side == 0 ? xi : 1;
+        spans_.push_back({SpanStrain(to, drawn, side == 0 ? left : right, k), side,
+                          length * (until - from) * coefficient(strain, k, from, until)});
+      }
+    if (!own[0].at_b) at_node_ = length * strain.at(xi);
   }
 
   // Newton's method with least moves. Returns whether all conditions are met; else nothing has moved.
@@ -35,6 +56,13 @@ class NodeMatch {
   }
 
  private:
+  // A strain of the span to the left (0) or right (1), and its wanted value.
+  struct OfSpan {
+    SpanStrain strain;
+    int side;
+    double wanted;
+  };
+
   std::vector<int> coordinates() const {
     std::vector<int> all;
     for (const int first : {node_.r, node_.slope_left, node_.slope_right})
@@ -49,7 +77,7 @@ class NodeMatch {
     for (int i = 0; i < most_moves; ++i) {
       const double before = now.excess.norm();
       if (before <= enough) return true;
-      Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, 3, 6>> solver;
+      Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 6>> solver;
       solver.setThreshold(1e-9);
       solver.compute(now.gradient);
       const Eigen::Matrix<double, 6, 1> step = solver.solve(-now.excess);
@@ -66,15 +94,22 @@ class NodeMatch {
   }
 
   Conditions conditions(const State& state) const {
-    const StrainIntegral a = left_.at(state), b = right_.at(state);
+    const auto count = static_cast<Eigen::Index>(spans_.size());
+    Conditions c;
+    c.excess.resize(count + (at_node_ ? 1 : 0));
+    c.gradient.resize(c.excess.size(), 6);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto& [strain, side, wanted] = spans_[static_cast<std::size_t>(i)];
+      const StrainIntegral now = strain.at(state);
+      const std::size_t end = side == 0 ? 1 : 0;
+      c.excess[i] = now.value - wanted;
+      c.gradient.row(i) << now.by_position[end].transpose(), now.by_slope[end].transpose() / length_;
+    }
+    if (!at_node_) return c;
     Eigen::Vector3d slope = Eigen::Vector3d::Zero();
     slope.head(to_.dimension()) = state.q.segment(node_.slope_right, to_.dimension());
-    Conditions c;
-    c.excess << a.value, b.value, length_ * (slope.squaredNorm() - 1) / 2;
-    c.excess -= wanted_;
-    c.gradient << a.by_position[1].transpose(), a.by_slope[1].transpose() / length_,
-        b.by_position[0].transpose(), b.by_slope[0].transpose() / length_, Eigen::RowVector3d::Zero(),
-        slope.transpose();
+    c.excess[count] = length_ * (slope.squaredNorm() - 1) / 2 - *at_node_;
+    c.gradient.row(count) << Eigen::RowVector3d::Zero(), slope.transpose();
     return c;
   }
 
@@ -88,9 +123,9 @@ class NodeMatch {
 
   const BeamSystem& to_;
   const MeshNode& node_;
-  SpanStrain left_, right_;
   double length_;
-  Eigen::Vector3d wanted_;
+  std::vector<OfSpan> spans_;
+  std::optional<double> at_node_;  // the strain there times the length; none where the spans do not share it
 };
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <memory>
 #include <numeric>
 
+#include "fem/material/bending_layer.h"
 #include "fem/motion/rest/resting_place.h"
+#include "fem/system/bending_layers.h"
 #include "fem/system/material_points.h"
 
 namespace nurbeam {
@@ -62,6 +64,40 @@ struct Interval {
   }
 };
 
+/// A kink, or a clamp, that stands for a layer of bending. It moves what is beside it by half its angle times
+/// the reach of the layer, and has the length of the shorter element beside it.
+struct Kink {
+  double s, reach, offset, element;  ///< [m]
+
+  /// A slope that is one on both sides misses this part of the offset at most (cubic elements of length l on
+  /// a taut beam, (l/reach)^4 for short ones).
+  static constexpr double of_smooth = 6.4e-4;
+  static constexpr double longest_smooth = 16;  ///< in reaches; a kink costs less where elements are longer
+
+  /// By the slope that is less wrong [m].
+  double error() const {
+    const double l = element / reach;
+    return l < longest_smooth ? offset * std::min(1.0, of_smooth * std::pow(l, 4)) : offset;
+  }
+  /// The longest element with a part of the offset [m].
+  double element_for(double allowed) const {
+    return reach * std::pow(std::min(1.0, allowed / offset) / of_smooth, 0.25);
+  }
+};
+
+std::vector<Kink> kinks_of(const MeshedState& at, int b) {
+  const BeamSystem& system = *at.system;
+  const Beam& beam = system.model().beams[b];
+  const double EI = std::pow(bending_reach(beam.properties, 1), 2);
+  std::vector<Kink> kinks;
+  for (const LayerRecord& layer :
+       bending_layers(system, at.state, CarriedBySpans(system, at.state), b).layers)
+    if (layer.reach > 0)
+      kinks.push_back({layer.s, layer.reach, std::abs(layer.moment) * layer.reach * layer.reach / EI,
+                       beam.home_spacing(layer.s)});
+  return kinks;
+}
+
 std::vector<Interval> intervals(const std::vector<int>& nodes, const std::vector<double>& errors,
                                 double length) {
   std::vector<Interval> all;
@@ -113,23 +149,47 @@ class Adaption {
     const std::vector<int> nodes = dividing_nodes(beam);
     const std::vector<Interval> now =
         intervals(nodes, home_errors(at, b, result_.from_equilibrium), beam.curve.length());
-    double error = 0, spread = 0;
+    double error = 0, spread = 0, of_kinks = 0;
     for (const Interval& interval : now) {
       error += interval.error;
       spread += interval.elements * std::pow(interval.error / interval.elements, 0.2);
     }
-    result_.error = std::max(result_.error, error);
-    if (error <= *tolerances_[b]) return false;
+    const std::vector<Kink> kinks = result_.from_equilibrium ? kinks_of(at, b) : std::vector<Kink>{};
+    for (const Kink& kink : kinks) of_kinks += kink.error() / beam.curve.length();
+    result_.error = std::max(result_.error, error + of_kinks);
+    if (error + of_kinks <= *tolerances_[b]) return false;
     constexpr double margin = 0.9;  // part of the tolerance, as the next estimate differs a little
-    const double density = std::pow(spread / (margin * *tolerances_[b]), 0.25);
+    const double left = margin * *tolerances_[b] - std::min(of_kinks, *tolerances_[b] / 2);
+    const double density = std::pow(spread / left, 0.25);
     std::vector<int> parts;
     for (const Interval& interval : now) parts.push_back(interval.elements_for(density));
-    if (std::accumulate(parts.begin(), parts.end(), 0) > most_elements_) {
+    if (of_kinks > *tolerances_[b] / 2) resolve(kinks, beam, nodes, *tolerances_[b], parts);
+    if (std::accumulate(parts.begin(), parts.end(), 0) > most_elements_ || !has_grown(parts, now)) {
       result_.reached = false;
       return false;
     }
     beam.home = divided(beam, nodes, parts);
     return true;
+  }
+
+  // Gives the elements beside kinks the length at which all of them take a third of the tolerance.
+  static void resolve(const std::vector<Kink>& kinks, const Beam& beam, const std::vector<int>& nodes,
+                      double tolerance, std::vector<int>& parts) {
+    const double allowed = tolerance / 3 * beam.curve.length() / static_cast<double>(kinks.size());
+    for (const Kink& kink : kinks)
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        const double from = beam.home_place(nodes[i]), to = beam.home_place(nodes[i + 1]);
+        const double beside = 1e-9 * beam.curve.length();
+        if (kink.error() <= allowed || kink.s < from - beside || kink.s > to + beside) continue;
+        const double wanted = std::ceil((to - from) / kink.element_for(allowed));
+        parts[i] = std::max(parts[i], static_cast<int>(std::min(wanted, 1e6)));
+      }
+  }
+
+  static bool has_grown(const std::vector<int>& parts, const std::vector<Interval>& now) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (parts[i] > now[i].elements) return true;
+    return false;
   }
 
   static std::vector<HomeNode> divided(const Beam& beam, const std::vector<int>& nodes,

@@ -25,7 +25,10 @@ using Vector = Eigen::VectorXd;
 BeamModel without_round_bending(const BeamModel& model, int dimension) {
   BeamModel bare = model;
   for (Beam& beam : bare.beams)
-    if (dimension == 3 && !beam.properties.sections) beam.properties = beam.properties.without_bending();
+    if (dimension == 3 && !beam.properties.sections) {
+      beam.properties = beam.properties.without_bending();
+      for (PipeBend& bend : beam.bends) bend.properties = bend.properties.without_bending();
+    }
   return bare;
 }
 
@@ -48,7 +51,10 @@ State along(const State& from, const Vector& direction, double amount) {
 // The model with additional dampers, as stiff in strain rates as its beams and connectors are in strains.
 BeamModel with_viscous_strains(const BeamModel& model) {
   BeamModel viscous = model;
-  for (Beam& beam : viscous.beams) beam.properties.damping += 1;
+  for (Beam& beam : viscous.beams) {
+    beam.properties.damping += 1;
+    for (PipeBend& bend : beam.bends) bend.properties.damping += 1;
+  }
   for (Connector& connector : viscous.connectors) connector.damping += connector.stiffness;
   return viscous;
 }

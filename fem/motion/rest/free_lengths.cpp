@@ -62,8 +62,9 @@ class LengthEquations {
       } else {
         c.residual[i] = length_and_force(system_, state_, own).second - connector.force;
         c.size[i] = std::abs(connector.force) + connector.stiffness * 1e-6 * axis.line(drawn_).length;
-        c.by_length.row(i) = connector.stiffness * (row_of(n, 1) - row_of(n, 0));
-        c.by_length(i, i) -= connector.stiffness;
+        const double k = stiffness_of(own);
+        c.by_length.row(i) = k * (row_of(n, 1) - row_of(n, 0));
+        c.by_length(i, i) -= k;
       }
     }
     return c;
@@ -72,6 +73,12 @@ class LengthEquations {
  private:
   ConnectorAxis<D> axis_of(int i) const {
     return ConnectorAxis<D>(a_.model()->connectors[i], *a_.model(), a_.mesh());
+  }
+
+  // Of a connector at its present stretch [N/m].
+  double stiffness_of(int i) const {
+    const Connector& connector = a_.model()->connectors[i];
+    return connector.elastic(axis_of(i).line(state_).length - connector.length).stiffness;
   }
 
   // (n, connectors) dq/dl_0 of the equilibrium.
@@ -87,7 +94,7 @@ class LengthEquations {
         rhs[n + *row_of_rod(system_, connectors[k])] = 1;
       else
         axis_of(connectors[k])
-            .add_pull(connector.stiffness * axis_of(connectors[k]).line(state_).n, rhs.head(n));
+            .add_pull(stiffness_of(connectors[k]) * axis_of(connectors[k]).line(state_).n, rhs.head(n));
       moved.col(static_cast<Eigen::Index>(k)) = solver.solve(rhs).head(n);
     }
     return moved;

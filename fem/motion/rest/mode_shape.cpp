@@ -1,10 +1,14 @@
 #include "fem/motion/rest/mode_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "fem/element/quadrature.h"
 #include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 
 namespace nurbeam {
@@ -20,6 +24,38 @@ double size_of(const MeshedState& at) {
       high = high.cwiseMax(r);
     }
   return (high - low).norm();
+}
+
+// Looks at the displacements of a mode inside the element of a span [m]. `moved`: the state with a small
+// amount of the mode.
+template <class LookAt>
+void look_inside(const MeshedState& at, const State& moved, double amount, int span, const LookAt& look_at) {
+  constexpr int parts = 8;
+  const MeshSpan& of = at.system->mesh().spans[span];
+  for (int i = 1; i < parts; ++i) {
+    const auto position = [&](const State& state) {
+      const double x = i / static_cast<double>(parts);
+      return material_point_in(*at.system, state, span, (1 - x) * of.start(state.q) + x * of.end(state.q)).r;
+    };
+    look_at(((position(moved) - position(at.state)) / amount).norm());
+  }
+}
+
+// The greatest displacement of a beam from its drawing, by the cubics of its elements alone: no forces belong
+// to the moved state.
+Extreme greatest_displacement(const BeamSystem& system, const State& state, int beam) {
+  constexpr int parts = 16;
+  const ReferenceCurve& curve = system.model().beams[beam].curve;
+  const Mesh& mesh = system.mesh();
+  Extreme greatest{0, 0};
+  for (int i = mesh.first_span[beam]; i < mesh.first_span[beam + 1]; ++i)
+    for (int k = 0; k <= parts; ++k) {
+      const double x = k / static_cast<double>(parts);
+      const double s = (1 - x) * mesh.spans[i].start(state.q) + x * mesh.spans[i].end(state.q);
+      const double distance = (material_point_in(system, state, i, s).r - curve.position(s)).norm();
+      if (distance > greatest.value) greatest = {distance, curve.wrapped(s)};
+    }
+  return greatest;
 }
 
 }  // namespace
@@ -40,8 +76,50 @@ double visible_amplitude(const MeshedState& at, const Mode& mode) {
         if (angle >= 0) largest = std::max(largest, std::abs(mode.shape[angle]) / turn);
       if (node.place >= 0) largest = std::max(largest, std::abs(mode.shape[node.place]) / (part * size));
     }
+  constexpr double amount = 1e-6;
+  State moved = at.state;
+  moved.q += amount * mode.shape;
+  for (int i = 0; i < static_cast<int>(at.system->mesh().spans.size()); ++i)
+    look_inside(at, moved, amount, i,
+                [&](double displacement) { largest = std::max(largest, displacement / (part * size)); });
   for (const int r : at.system->mesh().bodies) look_at(r, part * size);
   return largest > 0 ? 1 / largest : 0;
+}
+
+BendingWave bending_wave(const MeshedState& at, const Mode& mode) {
+  constexpr double amount = 1e-6, bends_much = 0.1;
+  const BeamModel& model = at.system->model();
+  const Mesh& mesh = at.system->mesh();
+  State moved = at.state;
+  moved.q += amount * mode.shape;
+  BendingWave shortest;
+  double bending = 0;
+  std::vector<std::array<double, 2>> sums(model.beams.size());  // of w^2 and w_ss^2
+  for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
+    const MeshSpan& span = mesh.spans[i];
+    const double s_a = span.start(at.state.q), length = span.end(at.state.q) - s_a;
+    for (int g = 0; g < GaussRule::size; ++g) {
+      const double s = s_a + GaussRule::points[g] * length, ds = GaussRule::weights[g] * length;
+      const MaterialPoint<3> here = material_point_in(*at.system, at.state, i, s),
+                             there = material_point_in(*at.system, moved, i, s);
+      const Eigen::Vector3d t = here.rs.normalized();
+      const auto across = [&](const Eigen::Vector3d& d) { return (d - d.dot(t) * t).squaredNorm(); };
+      sums[span.beam][0] += ds * across((there.r - here.r) / amount);
+      sums[span.beam][1] += ds * across((there.rss - here.rss) / amount);
+    }
+  }
+  for (std::size_t b = 0; b < sums.size(); ++b)
+    if (!model.beams[b].rigid) bending += model.beams[b].properties.bent_energy(std::sqrt(sums[b][1]), 1);
+  if (!(bending > mode.omega * mode.omega / 4)) return shortest;
+  for (std::size_t b = 0; b < sums.size(); ++b) {
+    const BeamProperties& beam = model.beams[b].properties;
+    if (model.beams[b].rigid || beam.bent_energy(std::sqrt(sums[b][1]), 1) < bends_much * bending) continue;
+    const double half = std::numbers::pi * std::pow(sums[b][0] / sums[b][1], 0.25),
+                 diameter = 2 * beam.radius_of_disk();
+    if (shortest.beam < 0 || half / diameter < shortest.diameters)
+      shortest = {static_cast<int>(b), half, half / diameter};
+  }
+  return shortest;
 }
 
 Snapshot record_mode(const MeshedState& at, const Mode& mode, double amount, double rate,
@@ -69,6 +147,7 @@ Snapshot record_mode(const MeshedState& at, const Mode& mode, double amount, dou
     beam.node_positions = shape.node_positions;
     beam.node_slopes = shape.node_slopes;
     beam.length = shape.length;
+    beam.displacement_max = greatest_displacement(*at.system, moved, static_cast<int>(b));
   }
   return snapshot;
 }

@@ -217,7 +217,30 @@ class RestSearch {
     report_.newton_iterations += found.newton_iterations;
     report_.load_steps += found.load_steps;
     report_.diverges = report_.diverges || (found.diverges && found.status == StaticStatus::converged);
+    if (found.status == StaticStatus::converged) stabilise(at, to);
     return found;
+  }
+
+  // Raises the stabilisation of an equilibrium from 0 to 1, which moves it only where an element resists
+  // folding. Without an equilibrium on the way the state stays.
+  void stabilise(MeshedState& at, const Loading& loading) {
+    const LoadedBetween system(*at.system, loading, loading, interrupted_,
+                               LoadedBetween::Stabilisation::rising);
+    State state = at.state;
+    const auto residual = [&](double stabilisation) {
+      state.load = stabilisation;
+      Eigen::VectorXd dynamics(system.coordinate_count()), constraints(system.constraint_count());
+      system.residual(state, dynamics, constraints);
+      return dynamics;
+    };
+    if (residual(0) == residual(1)) return;
+    const StaticReport found = find_static_equilibrium({}, system, state);
+    report_.newton_iterations += found.newton_iterations;
+    report_.load_steps += found.load_steps;
+    if (found.status != StaticStatus::converged) return;
+    at.state = std::move(state);
+    at.state.load = loading.load;
+    at.state.t = loading.t;
   }
 
   // Finds the equilibrium with all sliding bodies held where the plan has them.

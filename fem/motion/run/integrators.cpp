@@ -10,10 +10,6 @@ std::unique_ptr<Integrator> start(const GeneralizedAlpha& settings, const Second
   return same ? std::make_unique<GeneralizedAlphaIntegrator>(settings, system, from, same->mass_scale())
               : std::make_unique<GeneralizedAlphaIntegrator>(settings, system, from);
 }
-std::unique_ptr<Integrator> start(const Ida& settings, const SecondOrderSystem& system, const State& from,
-                                  const Integrator*) {
-  return std::make_unique<IdaIntegrator>(settings, system, from);
-}
 std::unique_ptr<Integrator> start(const ExplicitRungeKutta& settings, const SecondOrderSystem& system,
                                   const State& from, const Integrator*) {
   return std::make_unique<ExplicitIntegrator>(settings, system, from);

@@ -4,13 +4,12 @@
 
 #include "solver/steps/explicit_integrator.h"
 #include "solver/steps/generalized_alpha.h"
-#include "solver/steps/ida_integrator.h"
 #include "solver/steps/radau_integrator.h"
 
 namespace nurbeam {
 
 /// The methods that a motion can be integrated with.
-using IntegratorSettings = std::variant<GeneralizedAlpha, Ida, ExplicitRungeKutta, Radau>;
+using IntegratorSettings = std::variant<GeneralizedAlpha, ExplicitRungeKutta, Radau>;
 
 /// Whether a method damps motions quicker than its steps, and needs accelerations without them.
 bool damps_fast_motions(const IntegratorSettings& settings);

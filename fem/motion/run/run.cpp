@@ -45,6 +45,20 @@ bool Run::restart_balanced(const std::vector<int>& around) {
   return true;
 }
 
+bool Run::restart_after_jump() {
+  // Derivatives by a follower are those of a method that starts afresh.
+  auto* own = dynamic_cast<GeneralizedAlphaIntegrator*>(integrator.get());
+  if (!own || observer.follower) return restart();
+  NearSolver solver;
+  const Eigen::VectorXd before = at.state.a;
+  if (balance_accelerations(*at.system, shortest_time(), {}, solver, at.state).status !=
+      ConsistencyStatus::done)
+    return fail(Failure::Kind::mass_matrix);
+  own->jump_to(at.state, at.state.a - before);
+  restarted = true;
+  return true;
+}
+
 void Run::start_afresh(const Integrator* before) {
   integrator = start_integrator(options.integrator, *at.system, at.state, before);
   restarted = true;
@@ -69,6 +83,7 @@ Checkpoint Run::checkpoint() const {
   point.start_energy = account.start();
   for (const Connector& connector : model->connectors) point.connector_lengths.push_back(connector.length);
   point.steps = steps;
+  point.peaks = peaks.numbers();
   return point;
 }
 
@@ -83,6 +98,7 @@ void Run::go_on_from(const Checkpoint& point) {
   restarted = point.restarted;
   account = EnergyAccount(point.dissipated, point.input, point.start_energy);
   steps = point.steps;
+  peaks.go_on_from(point.peaks);
   report = point.report;
   report.energy_noise = energy_noise(*model);
 }

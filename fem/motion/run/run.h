@@ -6,6 +6,7 @@
 #include "fem/motion/record/checkpoint.h"
 #include "fem/motion/remesh/meshed_state.h"
 #include "fem/motion/run/energy_account.h"
+#include "fem/motion/run/peak_watch.h"
 #include "fem/motion/run/simulation_options.h"
 
 namespace nurbeam {
@@ -24,6 +25,7 @@ struct Run {
   EnergyAccount account = {};
   SimulationReport report = {};
   MeshWatch watch = {};
+  PeakWatch peaks = {};
   std::size_t events_at_once = 0;  ///< number of events since time last advanced
   double last_step = 0;            ///< [s]
   StepRecord last_record = {};
@@ -57,6 +59,8 @@ struct Run {
   /// (changed_unknowns; empty: any may have changed). Accelerations are carried over, except where they are
   /// out of balance.
   bool restart_balanced(const std::vector<int>& around);
+  /// Restarts after a jump of velocities. What has not jumped goes on as it would without a restart.
+  bool restart_after_jump();
   /// Records an event.
   void note(RunEvent event);
   /// The state with the multipliers of the present moment, at the end of a step of that length.

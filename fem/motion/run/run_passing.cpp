@@ -37,24 +37,31 @@ bool settle_sticking(Run& run, const std::vector<int>& riders, bool at_rest) {
   return true;
 }
 
+// Whether the velocity of a body jumps where it goes over to the next element. Curvature and twist jump
+// there, and with them the motion of a body that follows the section; at a kink the slope jumps.
+bool is_impact(const BeamModel& model, const Crossing& crossing) {
+  const Rider& rider = model.riders[crossing.rider];
+  if (rider.follows_section) return true;
+  const Beam& beam = model.beam_of(rider);
+  const int h = beam.home_at(crossing.s);
+  return h >= 0 && beam.home[h].kind == NodeKind::kink;
+}
+
 // Moves a rider's body into the next element, with its energy conserved, or, where `keeping` is known, as in
 // a neighbouring motion. `neighbour`, which may be null: see BeamSystem::replanned. False where velocities
 // cannot be projected.
 bool go_over(MeshedState& at, const Crossing& crossing, const BeamSystem* neighbour,
              std::optional<EnergyKeeping>& keeping, NeighbourSolvers& solvers) {
-  const Rider& rider = at.system->model().riders[crossing.rider];
   const double beyond = landing_tolerance(at.system->model(), crossing.rider);
   at.state.q[at.system->mesh().riders[crossing.rider].place] =
       crossing.s + (crossing.forward ? beyond : -beyond);
   auto next = at.system->replanned(present_plan(*at.system, at.state), {}, neighbour);
-  if (!rider.follows_section) {
+  if (!is_impact(next->model(), crossing)) {
     // On a ring the rider's node may go over the seam: from last to first, or from first to last.
     State moved = interpolated(*at.system, at.state, *next);
     at = {std::move(next), std::move(moved)};
     return true;
   }
-  // Curvature and twist jump from element to element, and with them the motion of a body that follows the
-  // section. This is an impact.
   std::optional<Transferred> moved = keeping ? projected_like(*at.system, at.state, *next, *keeping, solvers)
                                              : projected(*at.system, at.state, *next);
   if (!moved) return false;
@@ -133,8 +140,8 @@ bool rests_by(const Run& run, const StepEvent& event) {
 }
 
 bool step_over(Run& run, const Crossing& crossing) {
-  const bool follows_section = run.model->riders[crossing.rider].follows_section;
-  const double before = follows_section ? run.mechanical_energy() : 0;
+  const bool is_hit = is_impact(*run.model, crossing);
+  const double before = is_hit ? run.mechanical_energy() : 0;
   std::optional<EnergyKeeping> keeping;    // of the run, whose own motion goes over first
   std::shared_ptr<const BeamSystem> over;  // system of the run's own motion
   NeighbourSolvers solvers;
@@ -146,7 +153,7 @@ bool step_over(Run& run, const Crossing& crossing) {
   if (!pass(run.at)) return run.fail_in_impact(crossing.rider);
   over = run.at.system;
   run.follow_from(own, pass);
-  if (follows_section) run.account.lose(before - run.mechanical_energy());
+  if (is_hit) run.account.lose(before - run.mechanical_energy());
   return run.restart();
 }
 
@@ -168,28 +175,28 @@ bool end_sliding(Run& run, const Crossing& ending) {
 }
 
 bool pass_kink(Run& run) {
-  int jumping = -1;
+  bool jumps = support_speed_jumps(*run.model, run.at.state.t);
   for (const MotionKink& kink : motion_kinks(*run.model, run.at.state.t)) {
     if (run.at.system->mesh().plan.modes[kink.rider] == Carried::free) continue;
     const std::optional<Crossing> end =
         end_reached(*run.at.system, run.at.state, kink.rider, kink.before > 0);
     const Rider& rider = run.model->riders[kink.rider];
     // The motion goes on along the beam.
-    const bool goes_on = run.at.state.t < rider.motion->rows().back().first;
+    const bool goes_on = run.at.state.t < rider.motion->rows()->rows().back().first;
     const bool leaves = end && kink.before != 0 && !goes_on && rider.leave_at_end;
     if (!leaves || is_held(*run.model, *end))
-      jumping = kink.rider;
+      jumps = true;
     else if (!end_sliding(run, *end))
       return false;
   }
-  if (jumping < 0) return true;
+  if (!jumps) return true;
   const double before = run.mechanical_energy();
   const bool projected = run.change([time = run.shortest_time()](MeshedState& at) {
     return project_velocities(*at.system, at.state, time).status == ConsistencyStatus::done;
   });
-  if (!projected) return run.fail_in_impact(jumping);
+  if (!projected) return run.fail(Failure::Kind::mass_matrix);
   run.account.take_in(run.mechanical_energy() - before);
-  return settle_sticking(run, joints_with_friction(*run.at.system), false) && run.restart();
+  return settle_sticking(run, joints_with_friction(*run.at.system), false) && run.restart_after_jump();
 }
 
 bool release_bodies(Run& run) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fem/forces/memory.h"
+#include "fem/motion/events/friction_modes.h"
 #include "fem/motion/remesh/sliding_bodies.h"
 #include "fem/motion/run/damper_settling.h"
 #include "fem/motion/run/run_mesh.h"
@@ -222,13 +223,24 @@ void note_cut(Run& run, double asked, const StepReport& taken) {
   run.report.shortest_cut = std::min(run.report.shortest_cut, taken.step);
 }
 
+// Shows the start of a step to the observer where something is larger there than at all snapshots before.
+void show_peak(Run& run, const State& before, bool first, double length_before) {
+  if (!run.observer.peak || !run.peaks.passes_peak(*run.at.system, run.at.state, first)) return;
+  SnapshotContents contents = run.observer.contents;
+  contents.probes = false;
+  Snapshot snapshot = record_snapshot(*run.at.system, run.at_the_moment(before, length_before), {}, contents,
+                                      [](int, std::vector<ElementRecord>& elements) { elements.clear(); });
+  run.account.enter(snapshot);
+  run.observer.peak(std::move(snapshot));
+}
+
 // Applies the consequences of a landing.
 bool pass(Run& run, const Landing& landing, const State& before) {
   if (landing.ending && !end_sliding(run, *landing.ending)) return false;
   note_friction(run, before, landing.event);
   if (landing.crossing && !landing.ending && !step_over(run, *landing.crossing)) return false;
   if (landing.event && !landing.ending && !pass_event(run, *landing.event, Arrival::in_step)) return false;
-  if (!run.goes_on(meeting_bodies(run.at))) return false;
+  if (!run.goes_on(meeting_bodies(run.at)) || !run.goes_on(excess_of_wrap(run.at))) return false;
   settle_mesh(run);
   return run.report.status == SimulationStatus::done && recentre_sections(run);
 }
@@ -272,6 +284,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   run.last_record = {at.state.t, length, static_cast<int>(run.report.newton_iterations - iterations),
                      taken.rejected};
   run.steps.push_back(run.last_record);
+  show_peak(run, before, first, step_before);
   book(run, {before, at.state, states_within(run, length), is_cubic(run)}, first, step_before);
   return pass(run, landing, before);
 }

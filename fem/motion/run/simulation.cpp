@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fem/forces/memory.h"
+#include "fem/motion/events/friction_modes.h"
 #include "fem/motion/events/kinks.h"
 #include "fem/motion/remesh/sliding_bodies.h"
 #include "fem/motion/rest/find_loose_part.h"
@@ -40,6 +41,13 @@ bool take_first_velocities(MeshedState& at) {
   return project_velocities(*at.system, at.state).status == ConsistencyStatus::done;
 }
 
+// Derivatives know only steps that do not settle.
+SimulationOptions for_follower(SimulationOptions options, const RunFollower* follower) {
+  auto* settings = std::get_if<GeneralizedAlpha>(&options.integrator);
+  if (follower && settings) settings->settles = false;
+  return options;
+}
+
 }  // namespace
 
 // The course of a run: its rest or its motion, and its output on the way.
@@ -47,9 +55,12 @@ struct Simulation::Implementation {
  public:
   Implementation(std::shared_ptr<const BeamModel> model, std::vector<ProbePlace> probes,
                  SimulationOptions options, SimulationObserver observer, const Checkpoint* from)
-      : run_{.model = std::move(model), .options = std::move(options), .observer = std::move(observer)},
+      : run_{.model = std::move(model),
+             .options = for_follower(std::move(options), observer.follower),
+             .observer = std::move(observer)},
         probes_(std::move(probes)),
-        kinks_(kink_times(*run_.model)) {
+        kinks_(kink_times(*run_.model)),
+        seams_(seam_times(*run_.model)) {
     if (from) {
       go_on_from(*from);
     } else {
@@ -87,19 +98,25 @@ struct Simulation::Implementation {
 
   // A snapshot of the present state. Right after a restart it has the accelerations and multipliers of the
   // moment, as an integrator may average them over its first step.
-  Snapshot present(const TakeElements& take = nullptr) const {
+  Snapshot present(const SnapshotContents& contents, const TakeElements& take = nullptr) const {
     if (run_.restarted) {
       State state = run_.at.state;
       if (make_accelerations_consistent(*run_.at.system, state) == ConsistencyStatus::done)
-        return snapshot_of(state, take);
+        return snapshot_of(state, contents, take);
     }
-    if (phase_ == Phase::motion) return snapshot_of(run_.at_the_moment(run_.at.state, run_.last_step), take);
-    return snapshot_of(run_.at.state, take);
+    if (phase_ == Phase::motion)
+      return snapshot_of(run_.at_the_moment(run_.at.state, run_.last_step), contents, take);
+    return snapshot_of(run_.at.state, contents, take);
   }
 
-  Snapshot snapshot_of(const State& state, const TakeElements& take) const {
+  // What the observer asks for; of motions always the energies.
+  SnapshotContents wanted() const {
     SnapshotContents contents = run_.observer.contents;
     contents.energy |= !run_.options.statics;
+    return contents;
+  }
+
+  Snapshot snapshot_of(const State& state, const SnapshotContents& contents, const TakeElements& take) const {
     Snapshot snapshot = record_snapshot(*run_.at.system, state, probes_, contents, take);
     snapshot.steps = run_.steps;
     run_.account.enter(snapshot);
@@ -122,6 +139,7 @@ struct Simulation::Implementation {
     change(changed->forces);
     run_.model = std::move(changed);
     kinks_ = kink_times(*run_.model);
+    seams_ = seam_times(*run_.model);
     MeshedState& at = run_.at;
     at.system =
         std::make_unique<BeamSystem>(run_.model, present_plan(*at.system, at.state), at.system->held());
@@ -165,6 +183,10 @@ struct Simulation::Implementation {
     const bool found = phase_ == Phase::start
                            ? start_rest() && book(find_rest(run_.at, control, asked))
                            : book(find_next_rest(run_.at, times[next_output_], control, asked));
+    if (found && !run_.goes_on(excess_of_wrap(run_.at))) {
+      phase_ = Phase::ended;
+      return;
+    }
     if (found && run_.observer.follower) run_.observer.follower->rests(run_.at);
     if (found) take_snapshot();
     ++next_output_;
@@ -226,10 +248,13 @@ struct Simulation::Implementation {
       run_.change(&replan);
     }
     if (!run_.change(&take_first_velocities)) return run_.fail(Failure::Kind::initial_velocities);
-    if (MemoryPlaces(*run_.model).size > 0 &&
-        !(start_memory(run_.at, run_.shortest_time()) && start_contacts(run_.at, run_.shortest_time())))
-      return run_.fail(Failure::Kind::mass_matrix);
-    return pass_first_impacts(run_) && run_.restart();
+    if (MemoryPlaces(*run_.model).size > 0) {
+      std::optional<std::vector<LooseBody>> loose = start_memory(run_.at, run_.shortest_time());
+      if (!loose || !start_contacts(run_.at, run_.shortest_time()))
+        return run_.fail(Failure::Kind::mass_matrix);
+      if (run_.options.start_from_equilibrium) run_.report.loose_bodies = std::move(*loose);
+    }
+    return run_.goes_on(excess_of_wrap(run_.at)) && pass_first_impacts(run_) && run_.restart();
   }
 
   // Starts the account and the mesh of a motion; returns whether it has begun.
@@ -277,7 +302,8 @@ struct Simulation::Implementation {
     const auto& times = run_.options.output_times;
     const double output = next_output_ < times.size() ? times[next_output_] : run_.options.end_time;
     // A kink very close to an output time comes first, or it would be passed by.
-    const double kink = next_kink(), target = kink <= output + run_.resolution() ? kink : output;
+    const double kink = next_kink(), end = std::min(output, next_seam());
+    const double target = kink <= end + run_.resolution() ? kink : end;
     const double rest = target - time;
     if (!take_step(run_, rest / std::max(1.0, std::ceil(rest / run_.step - 1e-9)), rest)) return end_early();
     if (std::abs(time - target) < run_.resolution()) time = target;
@@ -311,6 +337,13 @@ struct Simulation::Implementation {
     const double end = run_.options.end_time;
     const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), run_.at.state.t + run_.resolution());
     return kink != kinks_.end() ? std::min(*kink, end) : end;
+  }
+
+  // The next seam that is at least a step away: nearer ones, of tables with many rows, are not worth a step.
+  double next_seam() const {
+    const auto seam = std::lower_bound(seams_.begin(), seams_.end(),
+                                       run_.at.state.t + std::max(run_.step, run_.resolution()));
+    return seam != seams_.end() ? *seam : run_.options.end_time;
   }
 
   std::optional<Failure> energy_from_nowhere(double slight) const {
@@ -367,12 +400,13 @@ struct Simulation::Implementation {
   void take_snapshot() {
     const auto& elements = run_.observer.elements;
     const double time = run_.at.state.t;
-    Snapshot snapshot =
-        present(elements ? [&](int beam, auto& some) { elements(time, beam, some); } : TakeElements());
+    Snapshot snapshot = present(
+        wanted(), elements ? [&](int beam, auto& some) { elements(time, beam, some); } : TakeElements());
     run_.steps.clear();
     iterations_written_ = run_.report.newton_iterations;
     if (!run_.options.statics) run_.account.record(snapshot, run_.report);
     last_written_ = run_.at.state.t;
+    run_.peaks.record();
     if (run_.observer.snapshot) run_.observer.snapshot(std::move(snapshot));
     if (run_.observer.follower) run_.observer.follower->records(run_.at, run_.restarted);
   }
@@ -380,6 +414,7 @@ struct Simulation::Implementation {
   Run run_;
   const std::vector<ProbePlace> probes_;
   std::vector<double> kinks_;  // kinks of tables, where steps end
+  std::vector<double> seams_;  // rows of smooth motions
   Phase phase_ = Phase::start;
   std::size_t next_output_ = 0;
   long iterations_written_ = 0;
@@ -401,7 +436,10 @@ bool Simulation::change_forces(const std::function<void(std::vector<Force>&)>& c
 }
 const BeamSystem& Simulation::system() const { return *implementation_->at().system; }
 const State& Simulation::state() const { return implementation_->at().state; }
-Snapshot Simulation::present() const { return implementation_->present(); }
+Snapshot Simulation::present() const { return implementation_->present(implementation_->wanted()); }
+Snapshot Simulation::present(const SnapshotContents& contents) const {
+  return implementation_->present(contents);
+}
 SimulationReport Simulation::report() const { return implementation_->report_up_to_now(); }
 Checkpoint Simulation::checkpoint() const { return implementation_->checkpoint(); }
 

@@ -32,6 +32,8 @@ class Simulation {
   SimulationReport report() const;
   /// A snapshot of the state, with the records of steps since the last snapshot.
   Snapshot present() const;
+  /// The same of what is asked for alone.
+  Snapshot present(const SnapshotContents& contents) const;
   /// A checkpoint of the present moment. Throws std::invalid_argument before the first call of advance(), and
   /// in statics.
   Checkpoint checkpoint() const;
@@ -48,8 +50,8 @@ class Simulation {
 /// next; without output times, of time 0. Sliding bodies come to rest.
 ///
 /// With `from`, which must belong to the same model and options, a motion goes on from that checkpoint: with
-/// generalized-alpha, Radau and the explicit methods bit by bit as if it had never been interrupted; IDA
-/// starts afresh with a short step. All is in the model's own coordinates.
+/// generalized-alpha, Radau and the explicit methods bit by bit as if it had never been interrupted. All is
+/// in the model's own coordinates.
 SimulationReport simulate(std::shared_ptr<const BeamModel> model, const std::vector<ProbePlace>& probes,
                           const SimulationOptions& options, const SimulationObserver& observer,
                           const Checkpoint* from = nullptr);

@@ -17,7 +17,7 @@ struct SimulationOptions {
   bool statics = false;
   bool start_from_equilibrium = false;
   double end_time = 0;
-  std::optional<double> step;        ///< fixed steps (with IDA, of length control); empty: error control
+  std::optional<double> step;        ///< fixed steps; empty: error control
   std::vector<double> output_times;  ///< increasing, within [0, end_time]
   IntegratorSettings integrator;
   LengthControl length_control;
@@ -26,6 +26,9 @@ struct SimulationOptions {
 /// Observer of a run; functions that are empty are not called.
 struct SimulationObserver {
   std::function<void(Snapshot)> snapshot = nullptr;  ///< at every output time
+  /// At moments between output times where something is larger than before: a snapshot without elements and
+  /// probes. Called while the step after it is taken.
+  std::function<void(Snapshot)> peak = nullptr;
   SnapshotContents contents = {};  ///< contents of snapshots; snapshots of motions always have energies
   /// Takes the elements of a snapshot, which then has none; called before it with its time.
   std::function<void(double time, int beam, std::vector<ElementRecord>& elements)> elements = nullptr;
@@ -38,7 +41,9 @@ struct SimulationObserver {
   std::function<bool()> checkpoint_due = nullptr;  ///< asked after every step
   /// Takes checkpoints (`inputs` left empty): those that are due, and the last one.
   std::function<void(Checkpoint)> checkpoint = nullptr;
-  RunFollower* follower = nullptr;  ///< for a run that has not been interrupted
+  /// For a run that has not been interrupted. Its steps of generalized-alpha do not settle, as their
+  /// derivatives do not know how.
+  RunFollower* follower = nullptr;
 };
 
 }  // namespace nurbeam

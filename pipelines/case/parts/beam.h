@@ -133,7 +133,7 @@ inline Fields<CaseBeam> beam_fields() {
                        "straight"),
           choice_field(&B::curvature, "curvature",
                        {{"material", CurvatureMeasure::material}, {"spatial", CurvatureMeasure::spatial}},
-                       "curvature measure; spatial: the papers'")
+                       "curvature measure; spatial: that of the paper on the element")
               .otherwise("material"),
           choice_field(
               &B::axial_strain, "axial_strain",

@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/case/fields.h"
+#include "pipelines/case/parts/slope.h"
 
 namespace nurbeam {
 
@@ -11,6 +11,7 @@ struct CaseBeamJoint {
   bool rigid = false;                        ///< else hinged
   std::optional<Eigen::Vector3d> near = {};  ///< where [m]; else where an end of one meets the other
   std::optional<Eigen::Vector3d> axis = {};  ///< of a hinge
+  SlopeRule slope = SlopeRule::automatic;    ///< of the beams where they go on beyond it
 };
 
 inline Fields<CaseBeamJoint> beam_joint_fields() {
@@ -28,6 +29,7 @@ inline Fields<CaseBeamJoint> beam_joint_fields() {
                   }),
       field(&J::axis, "axis", vector(Dimension::number),
             "as drawn, of a hinge between beams with torsion, which turn about it alone"),
+      slope_field(&J::slope),
       field(&J::name, "name", name(), "heads the columns of its forces"),
   }};
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include "fem/structure/connector.h"
 #include "pipelines/case/fields.h"
+#include "pipelines/case/force_laws.h"
+#include "pipelines/case/parts/slope.h"
 
 namespace nurbeam {
 
@@ -9,13 +11,15 @@ struct CaseConnectorEnd {
   std::string path, beam, body;
   Place at = {};                              ///< on the beam
   std::optional<Eigen::Vector3d> point = {};  ///< [m]
+  SlopeRule slope = SlopeRule::automatic;     ///< of the beam
 };
 
 struct CaseConnector {
   std::string path, name;
   std::array<CaseConnectorEnd, 2> ends;
   ConnectorType type = ConnectorType::spring;
-  double stiffness = 0, damping = 0;  ///< [N/m], [N s/m]
+  double stiffness = 0, damping = 0;   ///< [N/m], [N s/m]
+  std::optional<ForceRows> rows = {};  ///< instead of a constant stiffness
   ConnectorLength length_rule = ConnectorLength::given;
   std::optional<double> length = {};  ///< where it is given; else that of the drawing [m]
   double force = 0;                   ///< with ConnectorLength::force [N]
@@ -29,6 +33,7 @@ inline Fields<CaseConnectorEnd> connector_end_fields() {
   return {{
               field(&E::beam, "beam", name(), "a beam, at the place `at`"),
               field(&E::at, "at", place(), "where on that beam").beside("beam"),
+              slope_field(&E::slope).beside("beam"),
               field(&E::body, "body", name(), "a body"),
               field(&E::point, "point", point(), "a point that stays where it is"),
           },
@@ -59,8 +64,18 @@ inline Fields<CaseConnector> connector_fields() {
                        "tension-only: a dropper or a rope, slack where it is shorter than its free length; "
                        "compression-only: the other way; rod: it keeps its length")
               .otherwise("spring"),
-          field(&C::stiffness, "stiffness", quantity(Dimension::stiffness, plausible(0, 1e16)),
-                "force per stretch"),
+          field_by<C>(
+              "stiffness",
+              either(quantity(Dimension::stiffness, plausible(0, 1e16)),
+                     rows_over("stretch", Dimension::length, Dimension::force, plausible(-1e12, 1e12))),
+              "force per stretch, or rows of stretch and force, both of which increase: smooth between "
+              "the rows, straight beyond them",
+              [](const Json& json, const std::string& path, C& connector, Findings& findings) {
+                if (is_number(json))
+                  take(json, connector.stiffness);
+                else if ((connector.rows = force_rows(json, path, findings)))
+                  connector.stiffness = connector.rows->at(0).stiffness;
+              }),
           field(&C::damping, "damping", quantity(Dimension::damping, plausible(0, 1e16)),
                 "force per speed of the stretch")
               .otherwise("0")

@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/case/fields.h"
+#include "pipelines/case/parts/slope.h"
 
 namespace nurbeam {
 
@@ -12,8 +12,9 @@ struct CaseLoad {
   double torque = 0;                                ///< per length [N m/m]
   std::optional<Eigen::Vector2d> offset;            ///< of a force from the axis [m]
   bool follower = false;
-  std::optional<double> moving_speed;  ///< along the beam from `at` [m/s]
-  TimeTable time;                      ///< factor; empty: 1
+  std::optional<double> moving_speed;      ///< along the beam from `at` [m/s]
+  TimeTable time;                          ///< factor; empty: 1
+  SlopeRule slope = SlopeRule::automatic;  ///< where a force acts
 };
 
 inline Fields<CaseLoad> load_fields() {
@@ -54,6 +55,7 @@ inline Fields<CaseLoad> load_fields() {
                         if (const Json* speed = value_under(json, "speed")) take(*speed, load.moving_speed);
                       })
               .beside("force"),
+          slope_field(&L::slope).beside("force"),
           field(&L::time, "time", table(Dimension::number, {.lower = -1e12, .upper = 1e12}),
                 "factor over time, linear between rows, constant outside"),
       },

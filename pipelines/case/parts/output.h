@@ -4,6 +4,7 @@
 
 #include "cad_import/report/format.h"
 #include "nurbs/smooth/smooth_nurbs.h"
+#include "pipelines/case/parts/clearance.h"
 #include "pipelines/case/parts/probe.h"
 
 namespace nurbeam {
@@ -17,6 +18,7 @@ struct CaseOutput {
   StepSchema cad_schema = StepSchema::ap214;
   CurveParameter cad_parameter = CurveParameter::free;
   std::vector<CaseProbe> probes;
+  std::vector<CaseClearance> clearances;
   bool paraview = false;  ///< a series of files for ParaView
   bool report = true;     ///< report.html
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "fem/motion/record/snapshot.h"
 #include "pipelines/case/fields.h"
 
 namespace nurbeam {
@@ -7,6 +8,7 @@ struct CaseProbe {
   std::string name, beam;
   std::string path;
   Place at;
+  ProbePlace::Side side = ProbePlace::Side::after;
 };
 
 inline Fields<CaseProbe> probe_fields() {
@@ -16,6 +18,10 @@ inline Fields<CaseProbe> probe_fields() {
       field(&P::name, "name", name(), "heads the columns of the probe").needed(),
       field(&P::beam, "beam", name(), "the probed beam").needed(),
       field(&P::at, "at", place(), "where").needed(),
+      choice_field(&P::side, "side",
+                   {{"before", ProbePlace::Side::before}, {"after", ProbePlace::Side::after}},
+                   "where forces jump at the place: of the part of smaller or of greater s")
+          .otherwise("after"),
   }};
 }
 

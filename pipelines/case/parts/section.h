@@ -25,7 +25,8 @@ struct CaseSection {
   double product = 0;                                        ///< I_xy [m^4]
   std::optional<double> torsion_constant = {};               ///< [m^4]
   std::optional<CaseProfile> profile = {};                   ///< what gives area and second moment
-  bool from_cad = false;  ///< all are those of the pipe whose centre line the axis is
+  bool flexible_bends = false;  ///< bends of the pipe are softer, as its section becomes oval there
+  bool from_cad = false;        ///< all are those of the pipe whose centre line the axis is
 };
 
 /// The shape of the "section" of a beam; case_beam.cpp reads it.

@@ -1,6 +1,7 @@
 #pragma once
 #include "fem/structure/structure.h"
 #include "pipelines/case/parts/friction.h"
+#include "pipelines/case/parts/slope.h"
 #include "pipelines/case/parts/support.h"
 
 namespace nurbeam {
@@ -12,8 +13,9 @@ struct CaseSlidingJoint {
   std::optional<double> speed;         ///< initial [m/s]
   std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
   TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
-  std::optional<double> release;       ///< held until then [s]
-  bool continuous_slope = true;
+  RowJoin motion_join = RowJoin::smooth;
+  std::optional<double> release;  ///< held until then [s]
+  SlopeRule slope = SlopeRule::automatic;
   bool leave_at_end = true;  ///< false: stop
   bool follows_section = false;
   std::optional<Eigen::Vector2d> offset = {};  ///< in the section that it follows [m]
@@ -26,10 +28,15 @@ struct CaseSlidingJoint {
 inline Fields<CaseSlidingJoint> sliding_joint_fields() {
   using namespace shapes;
   using J = CaseSlidingJoint;
-  const Shape motion =
-      object({{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
-              {"table", table(Dimension::length), "reference arc length over time"}},
-             {{{"speed", "table"}, required}});
+  const Shape motion = object(
+      {{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
+       {"table", table(Dimension::length),
+        "reference arc length over time, constant outside the rows; between them smooth, with a continuous "
+        "speed and acceleration"},
+       {"interpolation", choice({"smooth", "linear"}),
+        "between the rows of the table; linear: the speed jumps at each row; smooth when omitted", false,
+        "table"}},
+      {{{"speed", "table"}, required}});
   Fields<J> fields{
       {
           field(&J::body, "body", name(), "the sliding body").needed(),
@@ -43,6 +50,8 @@ inline Fields<CaseSlidingJoint> sliding_joint_fields() {
                       [](const Json& json, const std::string&, J& joint, Findings&) {
                         if (const Json* speed = value_under(json, "speed")) take(*speed, joint.motion_speed);
                         if (const Json* rows = value_under(json, "table")) take(*rows, joint.motion_table);
+                        if (const Json* join = value_under(json, "interpolation"))
+                          if (text_of_choice(*join) == "linear") joint.motion_join = RowJoin::linear;
                       }),
           choice_field(
               &J::rest, "equilibrium", {{"held", StaticPlace::held}, {"free", StaticPlace::free}},
@@ -51,9 +60,7 @@ inline Fields<CaseSlidingJoint> sliding_joint_fields() {
           field(
               &J::release, "release", quantity(Dimension::time, positive()),
               "time of a motion until which the body is held where it is; free from the start when omitted"),
-          choice_field(&J::continuous_slope, "slope", {{"continuous", true}, {"discontinuous", false}},
-                       "whether the beam may have a kink at the body")
-              .otherwise("continuous"),
+          slope_field(&J::slope),
           choice_field(
               &J::as_point, "carried_as", {{"node", false}, {"point", true}},
               "node: a node of the beam moves with the body, and elements beside it come and go; point: the "

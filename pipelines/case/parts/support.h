@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/case/fields.h"
+#include "pipelines/case/parts/slope.h"
 
 namespace nurbeam {
 
@@ -10,10 +10,12 @@ struct CaseSupport {
   std::string beam;
   Place at;
   std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
-  std::optional<Eigen::Vector3d> axis = {};         ///< of a hinge
-  std::optional<Eigen::Vector3d> direction = {};    ///< of a guided one: where it is free
-  double force = 0, mass = 0;                       ///< along it [N], [kg]
-  std::optional<int> motion_law = {};               ///< the function of a program that prescribes it
+  RowJoin motion_join = RowJoin::smooth_at_rest;
+  std::optional<Eigen::Vector3d> axis = {};       ///< of a hinge
+  std::optional<Eigen::Vector3d> direction = {};  ///< of a guided one: where it is free
+  double force = 0, mass = 0;                     ///< along it [N], [kg]
+  SlopeRule slope = SlopeRule::automatic;
+  std::optional<int> motion_law = {};  ///< the function of a program that prescribes it
 };
 
 /// A function of the program that has made the case, by its number.
@@ -46,11 +48,17 @@ inline Fields<CaseSupport> support_fields() {
           .beside("direction"),
       field(&S::axis, "axis", vector(Dimension::number),
             "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"),
+      slope_field(&S::slope),
       field(&S::name, "name", name(), "heads the columns of its reaction"),
       field(
           &S::motion, "motion", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-          "moves the support from its drawn place: rows [time, dx, dy, dz], smooth between rows, at rest at the "
-          "first and the last"),
+          "moves the support from its drawn place: rows [time, dx, dy, dz]; smooth between them, with a continuous "
+          "speed and acceleration, at rest at the first and the last; in statics linear"),
+      choice_field(&S::motion_join, "interpolation",
+                   {{"smooth", RowJoin::smooth_at_rest}, {"linear", RowJoin::linear}},
+                   "between the rows of `motion`; linear: the speed jumps at each row")
+          .otherwise("smooth")
+          .beside("motion"),
       field(&S::motion_law, "motion_law", integer(from(0)), motion_law_help),
   }};
   fields.rows.back().in_files = false;

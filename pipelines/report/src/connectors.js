@@ -9,29 +9,35 @@ const dash = 7, gap = 5;
 const is_slack = (type, force) => force === 0 && type !== 'rod' && type !== 'spring';
 
 export class Connectors {
-  constructor(data) {
-    this.origin = data.shapes.origin;
+  /** placed(r): where r is shown. */
+  constructor(data, placed) {
+    this.placed = placed;
+    this.shapes = data.shapes;
     this.object = new Group();
     this.material = new MeshLambertMaterial();
     this.slack_material = new LineDashedMaterial();
     const described = data.run?.model?.connectors ?? [];
     const column = (i, name) => data.column('connector', i, name);
     this.connectors = (data.names.connectors ?? []).filter((_, i) => column(i, 'from_position.x')).map((name, i) => {
-      const type = described.find((one) => one.name === name)?.type;
+      const one = described.find((each) => each.name === name), type = one?.type;
       const taut = new Mesh(new CylinderGeometry(1, 1, 1, 10), this.material);
       taut.userData.radius = type === 'rod' ? rod_radius : line_radius;
       const slack = new Line(new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(6), 3)),
         this.slack_material);
       slack.frustumCulled = false;
       this.object.add(taut, slack);
-      const place = (end) => ['x', 'y', 'z'].map((axis) => column(i, `${end}_position.${axis}`));
+      const place = (end) => ({ columns: ['x', 'y', 'z'].map((axis) => column(i, `${end}_position.${axis}`)),
+        beam: data.names.beams.indexOf(one?.[end]?.beam), s: one?.[end]?.['s [m]'] });
       return { type, taut, slack, from: place('from'), to: place('to'), force: column(i, 'force') };
     });
   }
 
   show(frame) {
     const from = new Vector3(), to = new Vector3();
-    const load = (end, columns) => end.set(...columns.map(({ values }, k) => values[frame] - this.origin[k]));
+    const load = (end, { columns, beam, s }) => {
+      const shift = beam >= 0 ? this.shapes.shift(beam, s) : [0, 0, 0];
+      end.copy(this.placed(columns.map(({ values }, k) => values[frame] - this.shapes.origin[k] + shift[k])));
+    };
     for (const connector of this.connectors) {
       const { taut, slack } = connector;
       load(from, connector.from);

@@ -65,6 +65,7 @@ class Column {
  * The shapes of all beams at all frames. Each frame is one piece of base64, decoded into a buffer that is used
  * again for every frame. Of each beam with n elements it holds, one after the other:
  *   points   3 n + 1 control points (x, y, z), float32, relative to `origin`; neighbours share their end
+ *   displacements 3 n + 1 (x, y, z), float32, of these points from where they are drawn, if `displaced`
  *   weights  4 n, float32, if `rational`
  *   axes     12 n, float32, if `sections`: the section's x axis d1 at u = 0, 1/3, 2/3, 1; not a number without torsion
  *   places   n + 1, float32: reference arc length s of the nodes
@@ -74,6 +75,10 @@ class Column {
 class Shapes {
   constructor(description, text, beam_count, frame_count) {
     this.rational = description.rational;
+    this.displaced = Boolean(description.displaced) && description.displacement > 0;
+    this.has_displacements = Boolean(description.displaced);
+    this.displacement = description.displacement ?? 0;  // the largest of the run [m]
+    this.factor = 1;  // displacements are shown times this; 0 is the drawing
     this.sections = Boolean(description.sections);
     this.fields = description.fields;
     this.origin = description.origin;
@@ -104,7 +109,7 @@ class Shapes {
     return this.counts[frame * this.beam_count + beam];
   }
   bytes_of(n) {
-    return 4 * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0) + 4 * (n + 1)
+    return (this.has_displacements ? 8 : 4) * (3 * (3 * n + 1)) + (this.rational ? 16 * n : 0) + (this.sections ? 48 * n : 0) + 4 * (n + 1)
       + (8 + 4 * n) * this.fields.length;
   }
   /** Decodes a frame into `bytes` (also seen as `floats`), the beams from `starts` on. */
@@ -119,12 +124,39 @@ class Shapes {
     }
     decode_base64(this.text, this.offsets[frame], bytes, this.bytes);
     this.frame = frame;
+    if (this.displaced && this.factor !== 1) {
+      this.exaggerate();
+    }
+  }
+  /** Shows displacements times `factor` from now on. */
+  set_factor(factor) {
+    this.factor = factor;
+    this.frame = -1;
+  }
+  exaggerate() {
+    for (let beam = 0; beam < this.beam_count; ++beam) {
+      const points = this.points_start(beam), numbers = 3 * (3 * this.count(this.frame, beam) + 1);
+      for (let i = points; i < points + numbers; ++i) {
+        this.floats[i] += (this.factor - 1) * this.floats[i + numbers];
+      }
+    }
+  }
+  displacements_start(frame, beam) {
+    return this.points_start(beam) + 3 * (3 * this.count(frame, beam) + 1);
+  }
+  /** What `factor` adds to the position of the material at s of a beam of the loaded frame. */
+  shift(beam, s) {
+    if (!this.displaced || this.factor === 1) {
+      return [0, 0, 0];
+    }
+    const moved = this.point(beam, s, this.displacements_start(this.frame, beam));
+    return (moved?.r ?? [0, 0, 0]).map((d) => (this.factor - 1) * d);
   }
   points_start(beam) {
     return this.starts[beam] >> 2;
   }
   weights_start(frame, beam) {
-    return (this.starts[beam] >> 2) + 3 * (3 * this.count(frame, beam) + 1);
+    return this.points_start(beam) + (this.has_displacements ? 6 : 3) * (3 * this.count(frame, beam) + 1);
   }
   axes_start(frame, beam) {
     return this.weights_start(frame, beam) + (this.rational ? 4 * this.count(frame, beam) : 0);
@@ -151,8 +183,11 @@ class Shapes {
     }
     return low <= high ? { min: low, max: high } : this.fields[field];
   }
-  /** Position (relative to `origin`) and tangent of a beam of the loaded frame at s; nothing where it does not reach. */
-  point(beam, s) {
+  /**
+   * Position (relative to `origin`) and tangent of a beam of the loaded frame at s; nothing where it does not reach.
+   * The same of other control points than those of the beam, from `start` on.
+   */
+  point(beam, s, start = this.points_start(beam)) {
     const n = this.count(this.frame, beam), places = this.places_start(this.frame, beam);
     const slack = 1e-6 * (this.floats[places + n] - this.floats[places]);
     if (s < this.floats[places] - slack || s > this.floats[places + n] + slack) {
@@ -168,7 +203,7 @@ class Shapes {
     let w = 0, dw = 0;
     for (let k = 0; k < 4; ++k) {
       const weight = this.rational ? this.floats[this.weights_start(this.frame, beam) + 4 * element + k] : 1;
-      const from = this.points_start(beam) + 9 * element + 3 * k;
+      const from = start + 9 * element + 3 * k;
       w += basis[k] * weight;
       dw += slopes[k] * weight;
       for (let c = 0; c < 3; ++c) {
@@ -188,6 +223,7 @@ export function read_data() {
   const time = columns.find((column) => column.of === 'run' && column.name === 'time').values;
   const shapes = new Shapes(data.shapes, document.getElementById('shapes').textContent, data.names.beams.length,
     time.length);
+  const column = (of, index, name) => columns.find((c) => c.of === of && c.index === index && c.name === name);
   return {
     title: data.title,
     names: data.names,
@@ -196,6 +232,6 @@ export function read_data() {
     box: data.box,
     time,
     shapes,
-    column: (of, index, name) => columns.find((c) => c.of === of && c.index === index && c.name === name),
+    column,
   };
 }

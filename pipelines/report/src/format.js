@@ -18,6 +18,35 @@ export function number(value, digits = 6) {
   return `${Number(mantissa)}·10${superscript(Number(exponent))}`.replace(/^-/, '−');
 }
 
+const prefixes = {
+  m: [['µm', 1e-6], ['mm', 1e-3], ['m', 1]],
+  N: [['mN', 1e-3], ['N', 1], ['kN', 1e3], ['MN', 1e6]],
+  'N m': [['mN m', 1e-3], ['N m', 1], ['kN m', 1e3], ['MN m', 1e6]],
+  Pa: [['Pa', 1], ['kPa', 1e3], ['MPa', 1e6], ['GPa', 1e9]],
+  J: [['mJ', 1e-3], ['J', 1], ['kJ', 1e3], ['MJ', 1e6]],
+  s: [['µs', 1e-6], ['ms', 1e-3], ['s', 1]],
+};
+
+/** The unit that numbers up to `largest`, of a quantity in an SI unit, are read in, and how much of the SI unit it is. */
+export function readable_unit(largest, unit) {
+  const known = prefixes[unit];
+  if (!known || !(largest > 0)) {
+    const exponent = common_exponent(largest);
+    return { unit: scaled_unit(exponent, unit === '1' ? '' : unit_text(unit)), factor: 10 ** exponent };
+  }
+  const [name, factor] = known.filter(([, each]) => largest >= each * (1 - 0.5e-4)).at(-1) ?? known[0];
+  return { unit: name, factor };
+}
+
+/** A value with the unit that it is read in: "30.69 MPa". */
+export function readable(value, unit, digits = 4) {
+  if (!Number.isFinite(value)) {
+    return number(value);
+  }
+  const { unit: shown, factor } = prefixes[unit] ? readable_unit(Math.abs(value), unit) : { unit: unit_text(unit), factor: 1 };
+  return `${number(value / factor, digits)} ${shown}`.trim();
+}
+
 /** The same, but what is only round-off beside `largest` is 0. */
 export function number_beside(value, largest, digits = 6) {
   return number(Math.abs(value) < 1e-10 * largest ? 0 : value, digits);

@@ -44,9 +44,10 @@ function factor_at(rows, t) {
 }
 
 export class LoadArrows {
-  /** pin(symbol): its scale is to follow the zoom so that it is userData.pixels long. */
-  constructor(loads, data, pin) {
+  /** pin(symbol): its scale is to follow the zoom so that it is userData.pixels long; placed(r): where r is shown. */
+  constructor(loads, data, pin, placed) {
     this.data = data;
+    this.placed = placed;
     this.object = new Group();
     this.material = new MeshLambertMaterial();
     this.loads = loads.map((load) => {
@@ -85,7 +86,7 @@ export class LoadArrows {
         if (!symbol.visible) {
           return;
         }
-        symbol.position.set(...place.r);
+        symbol.position.copy(this.placed(place.r));
         if (load.about_axis) {
           turned.set(...place.t).multiplyScalar(Math.sign(load.value * factor));
         } else {

@@ -1,7 +1,8 @@
 // The page: picture, time, plots and tables, and what links them.
 import { css_gradient } from './colours.js';
 import { read_data } from './data.js';
-import { common_exponent, element, number, scaled_unit } from './format.js';
+import { element, number, readable_unit } from './format.js';
+import { start_exaggeration } from './exaggeration.js';
 import { modes_of, modes_table, start_modes } from './modes.js';
 import { Player, speeds } from './player.js';
 import { AlongPlot, Plot, plots_of } from './plots.js';
@@ -96,6 +97,13 @@ function set_notes() {
   $('notes').append(...notes.map((text) => element('p', { class: 'card notice' }, text)));
 }
 
+/** What the beams are coloured by at first: in statics their stress, where there is any. */
+function first_field(fields) {
+  const of = (...names) => names.map((name) => fields.findIndex((field) => field.name === name && (field.min !== 0 || field.max !== 0)))
+    .find((i) => i >= 0) ?? 0;
+  return (is_static && !has_modes) || is_load_steps ? of('stress', 'bending moment', 'axial force') : of('speed');
+}
+
 function start_view() {
   try {
     view = new View($('canvas'), $('overlay'), data);
@@ -106,15 +114,15 @@ function start_view() {
     return;
   }
   const fields = data.shapes.fields;
-  $('field').append(...fields.map(({ name, unit }, i) => element('option', { value: i }, unit === '1' ? name : `${name} [${unit}]`)));
-  $('field').value = (is_static && !has_modes) || is_load_steps ? 0 : Math.max(fields.findIndex(({ name }) => name === 'speed'), 0);
+  $('field').append(...fields.map(({ name }, i) => element('option', { value: i }, name)));
+  $('field').value = first_field(fields);
   choose_colours = () => {
     const { low, high, stops } = view.set_field(Number($('field').value), $('instant').checked);
     $('legend-bar').style.background = css_gradient(stops);
-    const exponent = common_exponent(Math.max(Math.abs(low), Math.abs(high)));
-    const texts = [low, (low + high) / 2, high].map((value) => number(value / 10 ** exponent, 4));
+    const { unit: shown, factor } = readable_unit(Math.max(Math.abs(low), Math.abs(high)), fields[$('field').value].unit);
+    const texts = [low, (low + high) / 2, high].map((value) => number(value / factor, 4));
     ['legend-low', 'legend-middle', 'legend-high'].forEach((id, i) => { $(id).textContent = texts[i]; });
-    $('legend-unit').textContent = scaled_unit(exponent, '');
+    $('legend-unit').textContent = shown;
   };
   for (const id of ['field', 'instant']) {
     $(id).addEventListener('change', choose_colours);
@@ -127,6 +135,15 @@ function start_view() {
   }
   $('fit').addEventListener('click', () => view.fit());
   $('sections').parentElement.hidden = !view.has_sections;
+  const heights = view.suited_heights;
+  if (heights > 1) {
+    $('heights-choice').hidden = false;
+    $('heights-name').textContent = `Heights × ${heights}`;
+    $('heights').addEventListener('change', () => view.set_heights($('heights').checked ? heights : 1));
+    view.set_heights(heights);
+  }
+  $('start-choice').hidden = is_static && !data.shapes.displaced;
+  $('start-name').textContent = data.shapes.displaced ? 'Drawn shape' : 'Start shape';
   const options = { paths: 'show_paths', nodes: 'show_nodes', start: 'show_start', loads: 'show_loads', sections: 'show_sections' };
   for (const [id, method] of Object.entries(options)) {
     $(id).addEventListener('change', () => view[method]($(id).checked));
@@ -293,6 +310,7 @@ set_header();
 set_notes();
 start_view();
 start_player();
+start_exaggeration(data, view, $, is_static || is_load_steps);
 start_along();
 start_plots();
 fill_tables();

@@ -1,6 +1,6 @@
 // Time histories as small SVG pictures with one common cursor, and fields along the beams.
 import { line_style } from './colours.js';
-import { common_exponent, element, number, number_beside, round_down, scaled_unit } from './format.js';
+import { element, number, number_beside, readable_unit, round_down } from './format.js';
 import { carried_round_off, energy_parts } from './tables.js';
 
 const height = 150, right = 14, top = 10, bottom = 24;
@@ -19,15 +19,14 @@ export function ticks(low, high, wanted) {
   return { step, values };
 }
 
-/** Labels with as many decimals as the step needs, and the power of ten they are taken from. */
-function labels_of({ step, values }) {
-  const largest = Math.max(...values.map(Math.abs), step);
-  const exponent = common_exponent(largest);
-  const scale = 10 ** -exponent;
-  const decimals = Math.max(0, -Math.floor(Math.log10(step * scale) + 1e-9));
+/** Labels with as many decimals as the step needs, the unit that they are in and how much of the SI unit it is. */
+function labels_of({ step, values }, si_unit) {
+  const { unit, factor } = readable_unit(Math.max(...values.map(Math.abs), step), si_unit);
+  const decimals = Math.max(0, -Math.floor(Math.log10(step / factor) + 1e-9));
   return {
-    exponent,
-    texts: values.map((value) => (value * scale).toFixed(Math.min(decimals, 12)).replace('-', '−')),
+    unit,
+    factor,
+    texts: values.map((value) => (value / factor).toFixed(Math.min(decimals, 12)).replace('-', '−')),
   };
 }
 
@@ -91,21 +90,24 @@ function path_of(time, values, x_of, y_of, pixels, steps) {
   return path;
 }
 
-/** Axes, their ticks and labels, for a width in pixels; x_of and y_of turn values into pixels, of which x starts at `left`. */
-function axes(svg, width, [start, end], [low, high], x_unit) {
-  const y_ticks = ticks(low, high, 4), y_labels = labels_of(y_ticks), left = margin_of(y_labels.texts);
+/**
+ * Axes, their ticks and labels, for a width in pixels; x_of and y_of turn values into pixels, of which x starts at `left`.
+ * `unit` is what the labels of y are in, `factor` how much of the SI unit it is.
+ */
+function axes(svg, width, [start, end], [low, high], x_unit, y_unit) {
+  const y_ticks = ticks(low, high, 4), y_labels = labels_of(y_ticks, y_unit), left = margin_of(y_labels.texts);
   const x_of = (x) => left + ((x - start) / (end - start)) * (width - left - right);
   const y_of = (value) => height - bottom - ((value - low) / (high - low)) * (height - bottom - top);
   svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
   svg.setAttribute('width', width);
-  const x_ticks = ticks(start, end, Math.max(2, Math.floor(width / 90))), x_labels = labels_of(x_ticks);
+  const x_ticks = ticks(start, end, Math.max(2, Math.floor(width / 90))), x_labels = labels_of(x_ticks, x_unit);
   const parts = [];
   y_ticks.values.forEach((value, i) => {
     const y = y_of(value).toFixed(1);
     parts.push(element('svg:line', { class: value === 0 ? 'zero' : 'gridline', x1: left, x2: width - right, y1: y, y2: y }),
       element('svg:text', { x: left - 6, y, dy: '0.35em', 'text-anchor': 'end' }, y_labels.texts[i]));
   });
-  const unit = scaled_unit(x_labels.exponent, x_unit), xs = x_ticks.values.map(x_of), last = xs.length - 1;
+  const { unit } = x_labels, xs = x_ticks.values.map(x_of), last = xs.length - 1;
   const at_end = xs[last] > width - right - 12, digit = 6.5;
   const room = width - 2 - xs[last] - (x_labels.texts[last].length / 2 + 1) * digit;
   const fits = at_end || room >= unit.length * digit;  // else the unit takes the place of the last number
@@ -118,11 +120,8 @@ function axes(svg, width, [start, end], [low, high], x_unit) {
   if (!at_end) {
     parts.push(element('svg:text', { x: width - 2, y: height - 7, 'text-anchor': 'end' }, unit));
   }
-  if (y_labels.exponent) {
-    parts.push(element('svg:text', { x: 2, y: height - 7 }, scaled_unit(y_labels.exponent, '')));
-  }
   parts.push(element('svg:line', { class: 'axis', x1: left, x2: width - right, y1: height - bottom, y2: height - bottom }));
-  return { parts, left, x_of, y_of };
+  return { parts, left, x_of, y_of, unit: y_labels.unit, factor: y_labels.factor };
 }
 
 /** A line and a name, for the key of a plot. */
@@ -151,9 +150,9 @@ export class Plot {
       const reading = element('data', { class: 'reading' });
       return { reading, item: key_of(one.name, one.style, reading) };
     });
+    this.shown_unit = element('span', { class: 'unit' });
     this.element = element('figure', { class: 'card plot-card' },
-      element('figcaption', {}, element('span', { class: 'plot-title' }, title), ' ',
-        element('span', { class: 'unit' }, `[${unit}]`)),
+      element('figcaption', {}, element('span', { class: 'plot-title' }, title), ' ', this.shown_unit),
       element('ul', { class: 'keys' }, ...this.keys.map(({ item }) => item)), this.svg);
     const follow = (event) => {
       const box = this.svg.getBoundingClientRect();
@@ -191,7 +190,9 @@ export class Plot {
     const [low, high] = range_of(this.series);
     this.largest = Math.max(Math.abs(low), Math.abs(high));
     const [start, end] = [time[0], time[time.length - 1]];
-    const { parts, left, x_of, y_of } = axes(svg, width, [start, end], [low, high], this.time_unit);
+    const { parts, left, x_of, y_of, unit, factor } = axes(svg, width, [start, end], [low, high], this.time_unit, this.unit);
+    this.shown_unit.textContent = unit ? `[${unit}]` : '';
+    this.factor = factor;
     this.left = left;
     this.x_of = x_of;
     parts.push(element('svg:path', { class: 'mesh-marks',
@@ -209,6 +210,7 @@ export class Plot {
     svg.setAttribute('aria-label', `${this.title} [${this.unit}] from ${number(start)} s to ${number(end)} s: `
       + this.series.map(({ name, values }) => `${name} ends at ${number(values[values.length - 1])}`).join(', '));
     this.move_cursor(this.frame ?? 0);
+    this.read(this.frame ?? 0);
   }
 
   move_cursor(frame) {
@@ -222,7 +224,7 @@ export class Plot {
     this.keys.forEach(({ reading }, i) => {
       const value = this.series[i].values[frame];
       reading.value = Number.isNaN(value) ? '' : value;
-      reading.textContent = number_beside(value, this.largest);
+      reading.textContent = number_beside(value / (this.factor ?? 1), this.largest / (this.factor ?? 1));
     });
   }
 }
@@ -234,11 +236,12 @@ export class AlongPlot {
     const { shapes, names } = data;
     this.svg = element('svg:svg', { class: 'plot', role: 'img', height });
     this.select = element('select', { id: 'along-field', 'aria-label': 'What is shown along the beams' },
-      ...shapes.fields.map(({ name, unit }, i) => element('option', { value: i }, unit === '1' ? name : `${name} [${unit}]`)));
+      ...shapes.fields.map(({ name }, i) => element('option', { value: i }, name)));
+    this.shown_unit = element('span', { class: 'unit' });
     this.readings = names.beams.map(() => element('data', { class: 'reading' }));
     this.styles = names.beams.map((_, i) => line_style(i));
     this.element = element('figure', { class: 'card plot-card', 'data-plot': 'along' },
-      element('figcaption', {}, this.select),
+      element('figcaption', {}, this.select, ' ', this.shown_unit),
       element('ul', { class: 'keys' }, ...names.beams.map((name, i) => key_of(name, this.styles[i], this.readings[i]))), this.svg);
     const wanted = ['bending moment', 'axial force'].map((name) => shapes.fields.findIndex((f) => f.name === name));
     this.select.value = wanted.find((i) => i >= 0) ?? 0;
@@ -261,7 +264,9 @@ export class AlongPlot {
       end = Math.max(end, shapes.floats[first + n]);
     }
     // One scale for the whole run: a curve that grows is seen to grow.
-    const { parts, x_of, y_of } = axes(svg, width, [0, end], range_of([{ values: [min, max] }]), 'm');
+    const { parts, x_of, y_of, unit: shown, factor } = axes(svg, width, [0, end], range_of([{ values: [min, max] }]), 'm', unit);
+    this.shown_unit.textContent = shown ? `[${shown}]` : '';
+    this.factor = factor;
     this.x_of = x_of;
     this.y_of = y_of;
     this.paths = this.styles.map((style) => element('svg:path',
@@ -293,7 +298,7 @@ export class AlongPlot {
         if (byte > greatest) { greatest = byte; at_high = s; }
       }
       path.setAttribute('d', d);
-      const text = (value, s) => `${number_beside(value, largest, 4)} at ${number(s, 4)} m`;
+      const text = (value, s) => `${number_beside(value / this.factor, largest / this.factor, 4)} at ${number(s, 4)} m`;
       this.readings[beam].value = `${low} ${high}`;
       this.readings[beam].textContent = `${text(low, at_low)} … ${text(high, at_high)}`;
     });
@@ -310,9 +315,12 @@ export function plots_of(data, at_rest = false) {
   };
   const points = [...names.bodies.map((name, index) => ({ of: 'body', name, index })),
     ...names.probes.map((name, index) => ({ of: 'probe', name, index }))];
+  // Of a model in a plane of two coordinates the third one does not move.
+  const across = (data.run?.model?.plane_normal ?? []).findIndex((part) => Math.abs(part) > 1 - 1e-9);
+  const parts = ['x', 'y', 'z'].filter((_, k) => k !== across);
   const plots = points.map(({ of, name, index }) => ({
     title: `Position of ${name}`, unit: 'm', id: `${of}-${index}-position`, is_position: true,
-    series: ['x', 'y', 'z'].map((part) => ({ name: part, values: values(of, index, part) })),
+    series: parts.map((part) => ({ name: part, values: values(of, index, part) })),
   }));
   if (points.length && !at_rest) {
     plots.push({ title: 'Speed', unit: 'm/s', id: 'speed',

@@ -1,5 +1,5 @@
 // What run.json says, and the model, as tables.
-import { element, number, number_beside, unit_text } from './format.js';
+import { element, number, number_beside, readable, readable_unit, unit_text } from './format.js';
 
 /** "length [m]" as its two parts. */
 function name_and_unit(key) {
@@ -18,6 +18,44 @@ function cell_text(value) {
   return typeof value === 'number' ? number(value) : String(value);
 }
 
+/** The largest magnitude of the numbers in a table's rows, by their units. */
+function largest_by_unit(rows) {
+  const largest = {};
+  for (const [key, value] of rows.flatMap(Object.entries)) {
+    if (typeof value === 'number') {
+      const { unit } = name_and_unit(key);
+      largest[unit] = Math.max(largest[unit] ?? 0, Math.abs(value) || 0);
+    }
+  }
+  return largest;
+}
+
+/** Rows without round-off: numbers that are nothing beside the largest of the same unit are 0. */
+function without_round_off(rows) {
+  const largest = largest_by_unit(rows);
+  return rows.map((row) => Object.fromEntries(Object.entries(row).map(([key, value]) => {
+    const { unit } = name_and_unit(key);
+    return [key, typeof value === 'number' && unit && Math.abs(value) < 1e-10 * largest[unit] ? 0 : value];
+  })));
+}
+
+/** Rows in the units that people read, which stand in their keys; the columns of one SI unit have one unit. */
+function in_readable_units(rows) {
+  const largest = largest_by_unit(rows);
+  const shown = (key) => {
+    const { name, unit } = name_and_unit(key);
+    if (!unit || !(unit in largest)) {
+      return { key, factor: 1 };
+    }
+    const { unit: read, factor } = readable_unit(largest[unit], unit);
+    return { key: `${name} [${read}]`, factor };
+  };
+  return rows.map((row) => Object.fromEntries(Object.entries(row).map(([key, value]) => {
+    const to = shown(key);
+    return [to.key, typeof value === 'number' ? value / to.factor : value];
+  })));
+}
+
 /** A table of objects that all have the same keys; numbers to the right. */
 export function table_of(caption, rows, keys = Object.keys(rows[0] ?? {})) {
   if (rows.length === 0) {
@@ -32,9 +70,10 @@ export function table_of(caption, rows, keys = Object.keys(rows[0] ?? {})) {
   const body = rows.map((row) => element('tr', {}, ...keys.map((key, i) => element(i === 0 ? 'th' : 'td', {
     scope: i === 0 ? 'row' : null,
     class: typeof row[key] === 'number' ? 'number' : null,
+    'data-head': key.replaceAll('_', ' '),
   }, cell_text(row[key])))));
   return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': caption },
-    element('table', {}, element('caption', {}, caption), element('thead', {}, element('tr', {}, ...heads)),
+    element('table', { class: keys.length > 4 ? 'stack' : null }, element('caption', {}, caption), element('thead', {}, element('tr', {}, ...heads)),
       element('tbody', {}, ...body)));
 }
 
@@ -105,7 +144,7 @@ export const energy_parts = (data) => ['kinetic', 'gravity', 'axial', 'bending',
 /** Where the energy was at the start and the end of the run. */
 export function energy_table(data) {
   const last = data.time.length - 1;
-  const rows = energy_parts(data).map((name) => {
+  const rows = energy_parts(data).filter((name) => data.column('energy', 0, name).values.some((value) => value !== 0)).map((name) => {
     const { values } = data.column('energy', 0, name);
     return last === 0 ? { energy: name, 'value [J]': values[0] }
       : { energy: name, 'start [J]': values[0], 'end [J]': values[last], 'change [J]': values[last] - values[0] };
@@ -131,27 +170,34 @@ function carries_nothing(beam, extremes) {
     !['N', 'N m'].includes(unit) || Math.abs(value) <= carried_round_off(beam, unit)));
 }
 
+/** How far the layer reaches in which bending rounds a kink, where the extreme is in one. */
+function layer_note(extreme) {
+  const reach = extreme['in a layer of [m]'];
+  return typeof reach === 'number' ? element('span', { class: 'unit' }, ` in a layer of ${readable(reach, 'm', 3)}`) : null;
+}
+
 /** The extremes of the run; a button shows their time, or the load factor that has no unit. */
 export function extremes_table(run, time_unit, go_to_time) {
   const all = (run?.extremes ?? []).filter(({ value }) => value !== null && value !== 0);
   const idle = (run?.model?.beams ?? []).filter((beam) => carries_nothing(beam, all));
-  const extremes = all.filter(({ quantity, unit }) => (
-    !(['N', 'N m', 'Pa'].includes(unit) && idle.some(({ name }) => quantity.startsWith(`${name}.`)))));
+  const largest = (unit) => Math.max(...all.filter((one) => one.unit === unit).map(({ value }) => Math.abs(value)));
+  const extremes = all.filter(({ quantity, unit, value }) => (
+    !(['N', 'N m', 'Pa'].includes(unit) && idle.some(({ name }) => quantity.startsWith(`${name}.`)))
+    && Math.abs(value) > 1e-10 * largest(unit)));
   if (!extremes.length) {
     return element('p', { class: 'none' }, all.length ? 'The beams carry nothing.' : 'run.json of these results does not name any.');
   }
   const moving = extremes.some((extreme) => extreme['time [s]'] > 0);
   const rows = extremes.map((extreme) => element('tr', {},
-    element('th', { scope: 'row' }, extreme.quantity),
-    element('td', { class: 'number' }, number(extreme.value)),
-    element('td', {}, unit_text(extreme.unit)),
-    element('td', { class: 'number' }, cell_text(extreme['s [m]'])),
-    moving ? element('td', { class: 'number' }, button_to(extreme['time [s]'], go_to_time)) : null));
+    element('th', { scope: 'row' }, extreme.quantity, layer_note(extreme)),
+    element('td', { class: 'number whole', title: `${extreme.value} ${extreme.unit}` }, readable(extreme.value, extreme.unit, 5)),
+    element('td', { class: 'number whole' }, number(extreme['s [m]'], 5)),
+    moving ? element('td', { class: 'number whole' }, button_to(extreme['time [s]'], go_to_time)) : null));
   const head = (name, unit) => element('th', { scope: 'col', class: unit ? 'number' : null }, name,
     unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
   return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': 'Extremes' },
     element('table', {}, element('thead', {}, element('tr', {}, head('quantity'), element('th', { scope: 'col', class: 'number' }, 'value'),
-      head('unit'), head('at s', 'm'), moving ? head(time_unit ? 'at time' : 'at load', time_unit || '–') : null)), element('tbody', {}, ...rows)));
+      head('at s', 'm'), moving ? head(time_unit ? 'at time' : 'at load', time_unit || '–') : null)), element('tbody', {}, ...rows)));
 }
 
 /** Events with a button that shows their time. */
@@ -159,20 +205,21 @@ export function events_table(events, go_to_time) {
   if (!events.length) {
     return element('p', { class: 'none' }, 'No element was split or merged, and no body left its beam.');
   }
+  const cell = (head, text) => element('td', { class: head.includes('[') ? 'number' : null, 'data-head': head }, text);
   const rows = events.map((event) => element('tr', {},
-    element('th', { scope: 'row', class: 'number' },
+    element('th', { scope: 'row', class: 'number', 'data-head': 'time [s]' },
       button_to(event['time [s]'], go_to_time)),
-    element('td', {}, event.kind),
-    element('td', {}, event.body || '–'),
-    element('td', {}, event.beam || '–'),
-    element('td', { class: 'number' }, cell_text(event['s [m]'])),
-    element('td', { class: 'number' }, number(event['energy_before [J]'], 8)),
-    element('td', { class: 'number' }, number(event['energy_after [J]'], 8)),
-    element('td', { class: 'number' }, number(event['energy_after [J]'] - event['energy_before [J]'], 3))));
+    cell('kind', event.kind),
+    cell('body', event.body || '–'),
+    cell('beam', event.beam || '–'),
+    cell('s [m]', cell_text(event['s [m]'])),
+    cell('energy before [J]', number(event['energy_before [J]'])),
+    cell('after [J]', number(event['energy_after [J]'])),
+    cell('change [J]', number(event['energy_after [J]'] - event['energy_before [J]'], 3))));
   const head = (name, unit) => element('th', { scope: 'col', class: unit ? 'number' : null }, name,
     unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
   return element('div', { class: 'card table-card scroll', tabindex: 0, role: 'region', 'aria-label': 'Events' },
-    element('table', {}, element('caption', {}, `${events.length} events`),
+    element('table', { class: 'stack' }, element('caption', {}, `${events.length} events`),
       element('thead', {}, element('tr', {}, head('time', 's'), head('kind'), head('body'), head('beam'),
         head('s', 'm'), head('energy before', 'J'), head('after', 'J'), head('change', 'J'))),
       element('tbody', {}, ...rows)));
@@ -213,9 +260,9 @@ export function run_tables(run) {
 
 /** The values of a static analysis, which has no histories to plot. */
 export function values_tables(data) {
-  const rows = (of, names, parts) => names.map((name, i) => Object.fromEntries([['name', name],
-    ...parts.filter(([, part]) => data.column(of, i, part))
-      .map(([label, part]) => [label, data.column(of, i, part).values[0]])]));
+  const rows = (of, names, parts) => in_readable_units(without_round_off(names.map((name, i) =>
+    Object.fromEntries([['name', name], ...parts.filter(([, part]) => data.column(of, i, part))
+      .map(([label, part]) => [label, data.column(of, i, part).values[0]])]))));
   const place = [['x [m]', 'x'], ['y [m]', 'y'], ['z [m]', 'z']];
   return [
     table_of('Places', [...rows('body', data.names.bodies, [...place, ['s [m]', 's']]),

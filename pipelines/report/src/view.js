@@ -9,9 +9,10 @@ import { SectionMesh } from './section_mesh.js';
 import { ViewCamera, steer, view_directions } from './camera.js';
 import { field_colours } from './colours.js';
 import { Connectors } from './connectors.js';
-import { element, number, round_down } from './format.js';
-import { Labels } from './labels.js';
+import { round_down } from './format.js';
+import { raised, raising_matrix, suited_heights } from './heights.js';
 import { LoadArrows } from './loads.js';
+import { Overlay } from './overlay.js';
 
 const y_axis = new Vector3(0, 1, 0);
 
@@ -62,17 +63,18 @@ export class View {
       map: { value: this.map_texture() },
       outline: { value: [0, 0, 0] },
     };
+    this.heights = 1;  // are shown times this, from the middle of the model on
     this.pinned_size = [];  // objects drawn in pixels: their scale follows the zoom
     this.add_light();
     this.add_grid();
     this.add_beams();
     this.add_supports(model?.supports ?? []);
     this.add_points();
-    this.connectors = new Connectors(data);
+    this.connectors = new Connectors(data, (place) => this.placed(place));
     this.scene.add(this.connectors.object);
-    this.loads = new LoadArrows(model?.loads ?? [], data, (symbol) => this.pinned_size.push(symbol));
+    this.loads = new LoadArrows(model?.loads ?? [], data, (symbol) => this.pinned_size.push(symbol), (place) => this.placed(place));
     this.scene.add(this.loads.object);
-    this.add_overlay(overlay, model?.['gravity [m/s^2]']);
+    this.overlay = new Overlay(overlay, this.points, model?.['gravity [m/s^2]'], this.grid_step);
     steer(canvas, this.view, () => this.moved());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.view.set_view(this.planar ? 'front' : 'iso');
@@ -116,8 +118,8 @@ export class View {
     this.ghost_uniforms = ghost;
     this.ghost = new Group();
     this.beams = [...shapes.most_elements].map((most) => new BeamMesh(most, shapes.rational, this.uniforms));
+    shapes.set_factor(shapes.displaced ? 0 : 1);  // the ghost is the drawing, where it is known
     shapes.load(0);
-    this.add_sections();
     for (let beam = 0; beam < this.beams.length; ++beam) {
       const start = new BeamMesh(shapes.count(0, beam), shapes.rational, ghost);
       start.load(shapes, 0, beam, 0);
@@ -126,6 +128,9 @@ export class View {
       this.ghost.add(start.object);
       this.scene.add(this.beams[beam].object);
     }
+    shapes.set_factor(1);
+    shapes.load(0);
+    this.add_sections();
     this.scene.add(this.ghost);
     const most = shapes.most_elements.reduce((sum, n) => sum + n + 1, 0);
     const geometry = new BufferGeometry();
@@ -199,6 +204,7 @@ export class View {
         : this.probe_material, of === 'body' ? 9 : 6),
       histories: histories(of, i),
       of,
+      shift: of === 'body' ? this.shift_of_body(name, i) : this.shift_of_probe(i),
     });
     this.points = [...names.bodies.map((name, i) => point('body', name, i)),
       ...names.probes.map((name, i) => point('probe', name, i))];
@@ -206,36 +212,52 @@ export class View {
     this.scene.add(this.paths);
   }
 
+  /** What exaggerated displacements add to the position of a body in a frame: to that of the beam that carries it. */
+  shift_of_body(name, i) {
+    const joint = this.data.run?.model?.joints?.find((one) => one.body === name);
+    const beam = this.data.names.beams.indexOf(joint?.beam), s = this.data.column('body', i, 's');
+    return (frame) => (beam >= 0 && s && !Number.isNaN(s.values[frame]) ? this.data.shapes.shift(beam, s.values[frame]) : [0, 0, 0]);
+  }
+
+  shift_of_probe(i) {
+    const columns = ['ux', 'uy', 'uz'].map((name) => this.data.column('probe', i, name));
+    return (frame) => (columns[0] ? columns.map(({ values }) => (this.data.shapes.factor - 1) * values[frame]) : [0, 0, 0]);
+  }
+
+  /** A place, relative to the origin of the shapes, where its height is shown. */
+  placed(place) {
+    return raised(new Vector3(...place), this.directions.up, this.heights);
+  }
+
+  /** How many times heights may be shown so that a long line is no stroke. */
+  get suited_heights() {
+    return this.has_sections ? 1 : suited_heights(this.box_points, this.directions.up, [this.view.right, this.view.front]);
+  }
+
+  set_heights(factor) {
+    this.heights = factor;
+    const matrix = raising_matrix(this.directions.up, factor);
+    for (const object of [this.grid, this.ghost, this.nodes, this.paths, ...this.beams.map((beam) => beam.object)]) {
+      object.matrixAutoUpdate = false;
+      object.matrix.copy(matrix);
+      object.matrixWorldNeedsUpdate = true;
+    }
+    this.view.box_points = this.box_points.map((point) => this.placed(point));
+    this.show(this.frame);
+    if (this.is_fitted) {
+      this.fit();
+    }
+  }
+
+  /** Shows displacements from the drawing times `factor`. */
+  exaggerate(factor) {
+    this.data.shapes.set_factor(factor);
+    this.show(this.frame);
+  }
+
   local(world) {
     const { origin } = this.data.shapes;
     return new Vector3(world[0] - origin[0], world[1] - origin[1], world[2] - origin[2]);
-  }
-
-  add_overlay(overlay, gravity) {
-    for (const point of this.points) {
-      point.label = element('span', { class: `label ${point.of}` }, point.name);
-    }
-    this.names = new Labels(this.points.map(({ label, of }) => ({ label, is_below: of === 'probe' })));
-    this.scale_bar = element('span', { class: 'scale-bar' });
-    this.scale_text = element('span');
-    const directions = [['x', [1, 0, 0]], ['y', [0, 1, 0]], ['z', [0, 0, 1]]];
-    if (gravity && Math.hypot(...gravity) > 0) {
-      directions.push(['g', gravity]);
-    }
-    this.triad = directions.map(([name, direction]) => ({
-      direction: new Vector3(...direction).normalize(),
-      line: element('svg:line', { class: `axis-${name}` }),
-      tip: element('svg:path', { class: `tip axis-${name}`, d: 'M6 0 L-3 3 L-3 -3 Z' }),
-      text: element('svg:text', { class: `axis-${name}`, 'text-anchor': 'middle', dy: '0.35em' }, name),
-      reach: name === 'g' ? 24 : 30,
-    }));
-    const triad = element('svg:svg', { class: 'triad', viewBox: '-46 -46 92 92', 'aria-hidden': 'true' },
-      ...this.triad.flatMap(({ line, tip, text }) => [line, tip, text]));
-    const grid_hint = element('span', { class: 'grid-hint' }, `grid ${number(this.grid_step)} m`);
-    this.enlarged_text = element('span', { class: 'grid-hint', id: 'enlarged' });
-    this.labels = element('div', { class: 'labels' }, ...this.points.map((point) => point.label));
-    overlay.append(this.labels, triad,
-      element('div', { class: 'scale' }, this.scale_bar, this.scale_text, grid_hint, this.enlarged_text));
   }
 
   /** Makes the paths of the bodies when they are first wanted. */
@@ -355,14 +377,15 @@ export class View {
         this.sections[beam]?.set_range(range, this.colours);
       }
     }
-    for (const { symbol, histories } of this.points) {
-      symbol.position.set(histories[0].values[frame] - shapes.origin[0], histories[1].values[frame] - shapes.origin[1],
-        histories[2].values[frame] - shapes.origin[2]);
+    for (const { symbol, histories, shift } of this.points) {
+      const [x, y, z] = shift(frame);
+      symbol.position.copy(this.placed([histories[0].values[frame] - shapes.origin[0] + x,
+        histories[1].values[frame] - shapes.origin[1] + y, histories[2].values[frame] - shapes.origin[2] + z]));
     }
     for (const { symbol, beam, s } of this.supports) {
       const place = shapes.point(beam, s);
       if (place) {
-        symbol.position.set(...place.r);
+        symbol.position.copy(this.placed(place.r));
       }
     }
     this.loads.show(frame);
@@ -410,39 +433,10 @@ export class View {
     const factors = this.sections.filter((mesh) => mesh?.object.visible)
       .map((mesh) => mesh.enlarge_to(least_pixels, view.scale));
     const factor = Math.max(1, ...factors);
-    this.enlarged_text.textContent = factor > 1.05 ? `sections × ${number(factor, 2)}` : '';
+    const shown = this.data.shapes.factor;
+    this.overlay.enlarged([[this.heights, 'heights'], [shown, 'deformation'], [factor > 1.05 ? factor : 1, 'sections']]);
     this.renderer.render(this.scene, view.camera);
-    this.draw_overlay();
-  }
-
-  draw_overlay() {
-    const { view } = this;
-    this.names.place(this.points.map(({ symbol: { position: p } }) => {
-      const dx = p.x - view.target.x, dy = p.y - view.target.y, dz = p.z - view.target.z;
-      return [view.width / 2 + view.scale * (dx * view.x.x + dy * view.x.y + dz * view.x.z),
-        view.height / 2 - view.scale * (dx * view.y.x + dy * view.y.y + dz * view.y.z)];
-    }));
-    if (this.drawn_scale !== view.scale) {
-      this.drawn_scale = view.scale;
-      const length = round_down(130 / view.scale);
-      this.scale_bar.style.width = `${length * view.scale}px`;
-      this.scale_text.textContent = `${number(length)} m`;
-    }
-    if (this.drawn_azimuth !== view.azimuth || this.drawn_elevation !== view.elevation) {
-      this.drawn_azimuth = view.azimuth;
-      this.drawn_elevation = view.elevation;
-      for (const { direction, line, tip, text, reach } of this.triad) {
-        const x = direction.dot(view.x), y = -direction.dot(view.y);
-        const short = Math.hypot(x, y) < 0.15;  // it points at the viewer
-        line.setAttribute('x2', (x * reach).toFixed(1));
-        line.setAttribute('y2', (y * reach).toFixed(1));
-        tip.setAttribute('transform',
-          `translate(${x * reach} ${y * reach}) rotate(${(Math.atan2(y, x) * 180) / Math.PI})`);
-        tip.style.display = text.style.display = short ? 'none' : '';
-        text.setAttribute('x', (x * (reach + 11)).toFixed(1));
-        text.setAttribute('y', (y * (reach + 11)).toFixed(1));
-      }
-    }
+    this.overlay.draw(view);
   }
 }
 

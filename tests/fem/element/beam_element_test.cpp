@@ -92,6 +92,7 @@ struct Witness {
   BeamProperties properties;
   bool straight;
   Eigen::Matrix<double, D, 1> load;
+  OwnSlopes own = {};
   static constexpr int n = element_size<D>;
 
   // Field r(s; q) from the Bezier points of Eq. 6 in homogeneous form.
@@ -217,16 +218,51 @@ struct Witness {
     return (rs2 - T(1.0)) / T(2.0);
   }
 
+  // int x^2 ds of the quadratic that a field is assumed as. At an end with a slope of its own the first
+  // moment of the field takes the place of the value there.
+  template <class T, class Field>
+  T square_of_assumed(const std::array<T, n>& q, const Field& field) const {
+    const T s_a = q[4 * D], length = q[4 * D + 1] - s_a;
+    T mean(0.0), first(0.0), second(0.0);
+    visit_points<T>(q, [&](const T& s, const T& weight) {
+      const T x = T(2.0) * (s - s_a) / length - T(1.0), part = weight / length * field(s);
+      mean = mean + part;
+      first = first + T(3.0) * part * x;
+      second = second + T(2.5) * part * (T(3.0) * x * x - T(1.0));
+    });
+    if (own.count() == 0) return integral_of_square<T>(field(s_a), field(q[4 * D + 1]), mean, length);
+    if (!own.at_b) second = field(q[4 * D + 1]) - mean - first;
+    if (!own.at_a) second = field(s_a) - mean + first;
+    return length * (mean * mean + first * first / T(3.0) + second * second / T(5.0));
+  }
+
   // Energy of the assumed axial strain.
   template <class T>
   T axial_energy(const std::array<T, n>& q) const {
     if (pointwise()) return T(0.0);
-    T integral(0.0);
-    visit_points<T>(q, [&](const T& s, const T& weight) { integral = integral + weight * strain<T>(q, s); });
-    const T length = q[4 * D + 1] - q[4 * D];
-    return T(properties.axial_stiffness / 2) * integral_of_square<T>(strain<T>(q, q[4 * D]),
-                                                                     strain<T>(q, q[4 * D + 1]),
-                                                                     integral / length, length);
+    const auto field = [&](const T& s) { return strain<T>(q, s); };
+    const T length = q[4 * D + 1] - q[4 * D], excess = residue<T>(q) - T(0.04);
+    T fold(0.0);
+    if (real(excess) > 0) fold = T(0.5) * length * excess * excess;
+    return T(properties.axial_stiffness / 2) * (square_of_assumed<T>(q, field) + fold);
+  }
+
+  // The coefficients of P_3 and P_4 in a field.
+  template <class T, class Field>
+  std::array<T, 2> residual_part(const std::array<T, n>& q, const Field& field) const {
+    const T s_a = q[4 * D], length = q[4 * D + 1] - s_a;
+    T third(0.0), fourth(0.0);
+    visit_points<T>(q, [&](const T& s, const T& weight) {
+      const T x = T(2.0) * (s - s_a) / length - T(1.0), part = weight / length * field(s);
+      third = third + T(3.5) * part * (T(5.0) * x * x - T(3.0)) * x;
+      fourth = fourth + T(1.125) * part * (T(35.0) * x * x * x * x - T(30.0) * x * x + T(3.0));
+    });
+    return {third, fourth};
+  }
+  template <class T>
+  T residue(const std::array<T, n>& q) const {
+    const auto [third, fourth] = residual_part<T>(q, [&](const T& s) { return strain<T>(q, s); });
+    return sqrt(T(10. / 21) * third * third + T(14. / 45) * fourth * fourth);
   }
 
   template <class T>
@@ -252,11 +288,12 @@ struct Witness {
     for (int i = 0; i < n; ++i) moving[i] = {q[i], v[i]};
     if (!pointwise()) {
       const auto rate = [&](const T& s) { return strain<testing::Dual<T>>(moving, lifted(s)).d; };
-      T integral(0.0);
-      visit_points<T>(q, [&](const T& s, const T& weight) { integral = integral + weight * rate(s); });
-      const T length = q[4 * D + 1] - q[4 * D];
-      sum = T(properties.damping / 2 * properties.axial_stiffness) *
-            integral_of_square<T>(rate(q[4 * D]), rate(q[4 * D + 1]), integral / length, length);
+      sum = T(properties.damping / 2 * properties.axial_stiffness) * square_of_assumed<T>(q, rate);
+      const T part = T(1.0) - T(0.04) / residue<T>(q);
+      const auto [third, fourth] = residual_part<T>(q, rate);
+      if (real(part) > 0)
+        sum = sum + T(properties.damping / 4 * properties.axial_stiffness) * (q[4 * D + 1] - q[4 * D]) *
+                        part * (T(10. / 21) * third * third + T(14. / 45) * fourth * fourth);
     }
     visit_points<T>(q, [&](const T& s, const T& weight) {
       const auto r = jets<testing::Dual<T>>(moving, lifted(s));
@@ -348,6 +385,8 @@ struct Variant {
   CurvatureMeasure curvature;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;
   bool virtual_work = false;
+  OwnSlopes own = {};
+  bool folded = false;
 };
 
 std::string name_of(const ::testing::TestParamInfo<Variant>& info) { return info.param.name; }
@@ -364,6 +403,7 @@ void check_against_witness(const Variant& variant, int seed) {
   if (variant.constant_weights) witness.chart.constant_weights = {1.0, 1.2, 0.9, 1.1};
   witness.properties = {300.0, 2.0, 0.7, variant.damping, variant.curvature};
   witness.properties.axial_strain = variant.axial_strain;
+  witness.own = variant.own;
   for (int d = 0; d < D; ++d) witness.load[d] = unit(random);
 
   const ReferenceCurve drawn({cubic}, D), curve = variant.straight ? drawn.straightened() : drawn;
@@ -379,8 +419,12 @@ void check_against_witness(const Variant& variant, int seed) {
   x.q << curve.position(s_a).head<D>(), curve.tangent(s_a).head<D>(), curve.position(s_b).head<D>(),
       curve.tangent(s_b).head<D>(), s_a, s_b;
   for (int k = 0; k < 4 * D; ++k) x.q[k] += 0.1 * unit(random);
+  if (variant.folded)
+    for (const int end : {0, 1}) x.q[ElementLayout<D>::slope(end) + 1] += end == 0 ? 1 : 0.6;
 
-  const BeamElement<D> element(curve, witness.properties, witness.chart, s_a, s_b, Ends::moving);
+  const BeamElement<D> element(curve, witness.properties, witness.chart, s_a, s_b, Ends::moving,
+                               {variant.own});
+  if (variant.folded) EXPECT_GT(element.strain_residue(x.q), 0.08);
   const auto tangent = [&](const TangentWeights& w) {
     return variant.virtual_work ? virtual_work::tangent<D>(element, x, witness.load, w)
                                 : element.tangent(x, witness.load, w);
@@ -406,7 +450,7 @@ void check_against_witness(const Variant& variant, int seed) {
   ElementState<D> held = x;
   held.v.template tail<2>().setZero();
   held.a.template tail<2>().setZero();
-  const BeamElement<D> fixed(curve, witness.properties, witness.chart, s_a, s_b, Ends::fixed);
+  const BeamElement<D> fixed(curve, witness.properties, witness.chart, s_a, s_b, Ends::fixed, {variant.own});
   const TangentWeights all{0.3, 0.7, 1.1};
   const ElementVector<D> moving_force = element.force(held, witness.load);
   const ElementMatrix<D> moving_tangent = element.tangent(held, witness.load, all);
@@ -443,7 +487,43 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"VirtualWork", 0, false, false, 0.2, CurvatureMeasure::material, AxialStrain::pointwise,
                 true},
         Variant{"VirtualWorkConstantWeights", 0, true, true, 0, CurvatureMeasure::spatial,
-                AxialStrain::pointwise, true}),
+                AxialStrain::pointwise, true},
+        Variant{"OwnSlopeAtB",
+                0,
+                false,
+                false,
+                0,
+                CurvatureMeasure::material,
+                AxialStrain::ends_and_mean,
+                false,
+                {.at_b = true}},
+        Variant{"OwnSlopeAtADamped",
+                0,
+                false,
+                false,
+                0.2,
+                CurvatureMeasure::material,
+                AxialStrain::ends_and_mean,
+                false,
+                {.at_a = true}},
+        Variant{"OwnSlopesDamped",
+                0,
+                false,
+                true,
+                0.3,
+                CurvatureMeasure::material,
+                AxialStrain::ends_and_mean,
+                false,
+                {true, true}},
+        Variant{"OwnSlopesArcLength",
+                -1,
+                false,
+                false,
+                0.1,
+                CurvatureMeasure::material,
+                AxialStrain::ends_and_mean,
+                false,
+                {true, true}}),
     name_of);
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "fem/mesh/mesh_elements.h"
 #include "fem/system/assembly.h"
+#include "tests/fem/axial_laws.h"
 #include "tests/fem/random_models.h"
 
 namespace nurbeam {
@@ -24,7 +25,7 @@ template <int D>
 void expect_as_by_itself(const MeshElement<D>& e, const State& state,
                          const Eigen::Matrix<double, D, 1>& load) {
   const BeamElement<D> alone(e.element.curve(), e.element.properties(), e.element.chart(), e.span->s_a,
-                             e.span->s_b, Ends::fixed);
+                             e.span->s_b, Ends::fixed, e.element.axial_rule());
   const ElementState<D> x = gather<D>(e, state);
   const TangentWeights w{.mass = 0.3, .damping = 0.2, .stiffness = 0.7};
   EXPECT_EQ(e.element.force(x, load), alone.force(x, load));
@@ -196,6 +197,8 @@ void check_all_number_rates() {
         if (strain == AxialStrain::ends_and_mean) properties.free_strain.constant = 0.01;
         SCOPED_TRACE(seed);
         check_number_rates<D>(properties, ++seed);
+        properties.law = HookeLaw();
+        check_number_rates<D>(properties, seed);
       }
 }
 
@@ -219,6 +222,10 @@ void check_all_kinds() {
         check_batches<D>(properties, ++seed, false);
         if (damped) check_batches<D>(properties, seed, true);
         check_at_one_place<D>(properties, seed);
+        for (const AxialLaw& law : testing::other_laws()) {
+          properties.law = law;
+          check_batches<D>(properties, seed, false);
+        }
       }
 }
 

@@ -64,35 +64,60 @@ TEST(FrictionLaw, NothingThatCannotHoldHoldsNothing) {
   EXPECT_EQ(none.memory.z, 0);
 }
 
-TEST(FrictionLaw, AtAKinkTensionsAreThoseOfTheCapstanOrOfCoulomb) {
-  // Tensions T1, T2 along the tangents balance the force across: (T1 + T2) sin(theta/2) = F_n.
-  for (const double theta : {1e-6, 0.3, std::numbers::pi / 2, 2.5}) {
-    const double mu = 0.15, F_n = 7;
-    const FrictionPoint kink{.force = {0, 0, F_n},
-                             .left = {std::cos(theta / 2), 0, -std::sin(theta / 2)},
-                             .right = {std::cos(theta / 2), 0, std::sin(theta / 2)},
-                             .s = 0,
-                             .rate = 1,
-                             .t = 0};
-    const double sum = F_n / std::sin(theta / 2);
-    const auto ratio = [&](Friction::Law law) {
-      const double jump = -Rubbing({.coefficient = mu, .law = law}).at(kink, {0, 0, 1}).along;
-      return (sum + jump) / (sum - jump);
-    };
-    EXPECT_NEAR(ratio(Friction::Law::capstan), std::exp(mu * theta), 1e-9);
-    const double tangent = mu * std::tan(theta / 2);
-    EXPECT_NEAR(ratio(Friction::Law::coulomb), (1 + tangent) / (1 - tangent), 1e-9);
+// A kink of a rope with tensions T1 and T2.
+FrictionPoint kink(double theta, double T1, double T2) {
+  const Vector3d t1(std::cos(theta / 2), 0, -std::sin(theta / 2)), t2(t1.x(), 0, -t1.z());
+  return {.force = T2 * t2 - T1 * t1, .left = t1, .right = t2, .s = 0, .rate = 1, .t = 0};
+}
+
+// Of a body that slides where the rope is kinked, T2 - T1 by its law for tensions that differ by so much.
+double jump(const Friction& friction, double theta, double T1, double T2) {
+  return -Rubbing(friction).at(kink(theta, T1, T2), {0, 0, 1}).along;
+}
+
+TEST(FrictionLaw, AtAKinkTensionsAreThoseOfTheCapstanAtEveryWrap) {
+  for (const double theta : {0.0, 1e-6, 1e-3, 0.3, std::numbers::pi / 2, 2.5, 3.1, std::numbers::pi})
+    for (const double mu : {0.02, 0.15, 0.7}) {
+      const double T1 = 9, T2 = T1 * std::exp(mu * theta);
+      const Friction friction{.coefficient = mu, .law = Friction::Law::capstan};
+      EXPECT_NEAR(jump(friction, theta, T1, T2), T2 - T1, 1e-11 * T2) << theta << " " << mu;
+    }
+}
+
+TEST(FrictionLaw, AtAKinkTensionsAreThoseOfCoulomb) {
+  for (const double theta : {0.3, std::numbers::pi / 2, 2.0}) {
+    const double mu = 0.15, tangent = mu * std::tan(theta / 2), T1 = 9,
+                 T2 = T1 * (1 + tangent) / (1 - tangent);
+    EXPECT_NEAR(jump({.coefficient = mu}, theta, T1, T2), T2 - T1, 1e-11);
   }
+}
+
+// Known answer A6: 1000 N over a pulley whose bearing has a coefficient of 0.1 at a fifth of its radius.
+TEST(FrictionLaw, OfABearingIsOfTheWholeForce) {
+  const Friction bearing{.coefficient = 0.02, .law = Friction::Law::bearing};
+  EXPECT_NEAR(jump(bearing, std::numbers::pi, 1000, 1040.81633), 40.81633, 1e-5);
+  EXPECT_NEAR(jump(bearing, std::numbers::pi / 2, 1000, 1028.69292), 28.69292, 1e-5);
+}
+
+TEST(FrictionLaw, OfABrakeMayGoByItsTravel) {
+  Rubbing rubbing({.force = {{0, 1}}, .force_over = {{0, 0}, {2, 10}, {3, 4}}});
+  rubbing.body.start = 5;
+  for (const auto& [s, force] : {std::pair{5.0, 1.0}, {6.0, 6.0}, {4.0, 6.0}, {7.5, 8.0}, {9.0, 5.0}})
+    EXPECT_NEAR(rubbing.at(level(10, s, 3), {0, s, 1}).along, -force, 1e-12) << s;
+  EXPECT_NEAR(rubbing.at(level(10, 6, 3), {0, 6, 1}).by_s, -5, 1e-12);
+  EXPECT_NEAR(rubbing.at(level(10, 4, 3), {0, 4, 1}).by_s, 5, 1e-12);
+  EXPECT_NEAR(rubbing.at(level(10, 6, -3), {0, 6, -1}).by_s, 5, 1e-12);
 }
 
 // By the force, both slopes, the place and its rate, of bodies that slide and of those that stick, with a
 // kink and without one.
 TEST(FrictionLaw, HasTheDerivativesOfItsForce) {
   std::mt19937 random(1);
-  for (const Friction::Law law : {Friction::Law::coulomb, Friction::Law::capstan})
+  for (const Friction::Law law : {Friction::Law::coulomb, Friction::Law::capstan, Friction::Law::bearing})
     for (const int slides : {1, -1, 0})
       for (const bool kink : {false, true}) {
-        const Rubbing rubbing({.coefficient = 0.3, .law = law, .viscous = 2});
+        const Rubbing rubbing(
+            {.coefficient = 0.3, .law = law, .force_over = {{0, 1}, {0.5, 30}}, .viscous = 2});
         const auto any = [&](int size) { return testing::random_vector(size, random); };
         FrictionPoint at = level(slides == 0 ? 1000 : 10, 1e-3, slides == 0 ? 0.01 : 4 * slides);
         at.force += any(3);

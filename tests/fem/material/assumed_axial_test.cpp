@@ -41,6 +41,52 @@ TEST(AssumedStrain, HasTheEndValuesAndTheMean) {
   }
 }
 
+// Of a strain that is a polynomial of degree 4, over an element from 0.3 on that is 0.7 long.
+StrainCoefficients<double> coefficients_of(const std::array<double, 5>& strain) {
+  StrainCoefficients<double> e{};
+  for (int g = 0; g < GaussRule::size; ++g) {
+    const double xi = GaussRule::points[g];
+    const auto weights = strain_weights(0.3 + 0.7 * xi, 0.7 * GaussRule::weights[g], 0.3, 0.7);
+    double at = 0;
+    for (int i = 4; i >= 0; --i) at = at * xi + strain[i];
+    for (int k = 0; k < 5; ++k) e[k] += weights[k] * at;
+  }
+  return e;
+}
+
+TEST(StrainCoefficients, AddUpToTheStrain) {
+  const std::array<double, 5> strain{0.3, -0.2, 0.7, 0.4, -0.9};
+  const StrainCoefficients<double> e = coefficients_of(strain);
+  for (const double xi : {0.0, 0.3, 1.0}) {
+    double sum = 0, at = 0;
+    for (unsigned k = 0; k < 5; ++k) sum += e[k] * std::legendre(k, 2 * xi - 1);
+    for (int i = 4; i >= 0; --i) at = at * xi + strain[i];
+    EXPECT_NEAR(sum, at, 1e-14);
+  }
+}
+
+// With the mean and the other end's value the first moment takes the place of the value at an own slope; a
+// quadratic is what it was.
+TEST(AssumedEnds, HaveTheFirstMomentWhereASlopeIsTheElementsOwn) {
+  for (const bool quadratic : {false, true}) {
+    std::array<double, 5> strain{0.3, -0.2, 0.7, 0.4, -0.9};
+    if (quadratic) strain[3] = strain[4] = 0;
+    const double at_a = strain[0], at_b = strain[0] + strain[1] + strain[2] + strain[3] + strain[4];
+    const StrainCoefficients<double> e = coefficients_of(strain);
+    for (const OwnSlopes& own : {OwnSlopes{}, {true, false}, {false, true}, {true, true}}) {
+      const AssumedEnds<double> ends = assumed_ends(own);
+      const std::array<double, 5> of{at_a, at_b, e[0], e[1], e[2]};
+      const AssumedStrain assumed(0.7 * e[0], dot(ends.a, of), dot(ends.b, of), 0.7);
+      EXPECT_NEAR(assumed.c0, e[0], 1e-15);
+      if (own.count() > 0) EXPECT_NEAR(assumed.c1, e[1], 1e-14);
+      if (own.count() == 2) EXPECT_NEAR(assumed.c2, e[2], 1e-14);
+      if (!own.at_a) EXPECT_NEAR(assumed.at(0), at_a, 1e-14);
+      if (!own.at_b) EXPECT_NEAR(assumed.at(1), at_b, 1e-14);
+      if (quadratic) EXPECT_NEAR(assumed.at(0.3), 0.3 - 0.2 * 0.3 + 0.7 * 0.09, 1e-14);
+    }
+  }
+}
+
 TEST(AssumedAxialEnergy, IsTheIntegralOfTheStrainsSquare) {
   std::mt19937 random(2);
   for (int i = 0; i < 50; ++i) {

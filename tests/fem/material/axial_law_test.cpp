@@ -47,20 +47,26 @@ TEST(ForceOverStretch, GoesThroughItsRowsAndGrowsBetweenThem) {
   const std::vector<std::pair<double, double>> rows{{-0.8, -40}, {0, 0}, {0.05, 30}, {0.5, 60}, {1.5, 400}};
   const ForceOverStretch law(rows);
   for (const auto& [e, F] : rows) EXPECT_NEAR(force(law, 0, 1 + e), F, 1e-12);
-  double before = law.at(-0.9).force;
+  double before = law.rows().at(-0.9).force;
   for (double e = -0.89; e < 2; e += 0.01) {
-    EXPECT_GT(law.at(e).force, before) << e;
-    before = law.at(e).force;
+    EXPECT_GT(law.rows().at(e).force, before) << e;
+    before = law.rows().at(e).force;
   }
 }
 
 TEST(ForceOverStretch, HasTheEnergyOfItsForce) {
-  const ForceOverStretch law({{-0.8, -40}, {0.02, 3}, {0.05, 30}, {0.5, 60}, {1.5, 400}});
+  const ForceRows law({{-0.8, -40}, {0.02, 3}, {0.05, 30}, {0.5, 60}, {1.5, 400}});
   EXPECT_EQ(law.at(0).energy, 0);
   const std::vector<double> ends{-0.95, -0.8, 0, 0.02, 0.05, 0.5, 1.5, 1.8};
   for (std::size_t i = 1; i < ends.size(); ++i)
     EXPECT_NEAR(law.at(ends[i]).energy - law.at(ends[i - 1]).energy,
                 gauss([&](double e) { return law.at(e).force; }, ends[i - 1], ends[i]), 1e-11);
+}
+
+TEST(ForceRows, KnowTheStretchUnderAForce) {
+  const ForceRows law({{-0.8, -40}, {0, 0}, {0.05, 30}, {0.5, 60}, {1.5, 400}});
+  for (const double F : {-70.0, -40.0, -1.0, 0.0, 12.0, 30.0, 59.0, 300.0, 900.0})
+    EXPECT_NEAR(law.at(law.stretch(F)).force, F, 1e-11 * (1 + std::abs(F))) << F;
 }
 
 TEST(ForceOverStretch, OfAStraightLineIsHookesLaw) {

@@ -2,16 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace nurbeam {
 namespace {
 
-const DisplacementTable table({{0, {0, 0, 0}}, {1, {1, 0, -2}}, {1.5, {3, 0, -2}}, {4, {2, 0, 5}}});
+const std::vector<DisplacementTable::Row> rows = {
+    {0, {0, 0, 0}}, {1, {1, 0, -2}}, {1.5, {3, 0, -2}}, {4, {2, 0, 5}}};
+const DisplacementTable table(rows);
 
 TEST(DisplacementTable, PassesItsRowsAndRestsOutside) {
-  for (const auto& [t, displacement] : table.rows()) EXPECT_EQ(table.at(t).value, displacement);
+  for (const auto& [t, displacement] : rows) EXPECT_EQ(table.at(t).value, displacement);
   for (const double t : {-1.0, 4.0, 9.0}) {
     EXPECT_EQ(table.at(t).rate, Eigen::Vector3d::Zero());
     EXPECT_EQ(table.at(t).acceleration, Eigen::Vector3d::Zero());
@@ -28,19 +29,20 @@ TEST(DisplacementTable, RateAndAccelerationAreRates) {
   }
 }
 
-TEST(DisplacementTable, OvershootsNothingAndNoSpeedJumps) {
-  for (std::size_t i = 0; i + 1 < table.rows().size(); ++i) {
-    const auto& [t0, a] = table.rows()[i];
-    const auto& [t1, b] = table.rows()[i + 1];
-    for (int k = 0; k <= 100; ++k) {
-      const Eigen::Vector3d d = table.at(t0 + k * (t1 - t0) / 100).value;
-      for (int c = 0; c < 3; ++c) {
-        EXPECT_GE(d[c], std::min(a[c], b[c]) - 1e-15);
-        EXPECT_LE(d[c], std::max(a[c], b[c]) + 1e-15);
-      }
-    }
-    EXPECT_LT((table.at(t1 - 1e-9).rate - table.at(t1 + 1e-9).rate).norm(), 1e-6) << t1;
+TEST(DisplacementTable, NoSpeedJumpsAndNoAccelerationWhereNothingWaits) {
+  const DisplacementTable rising({{0, {0, 0, 0}}, {1, {1, 0, 0}}, {1.5, {1.8, 0, 0}}, {4, {4, 0, 0}}});
+  for (const double t : {1.0, 1.5}) {
+    const auto before = table.at(t - 1e-9), after = table.at(t + 1e-9);
+    EXPECT_LT((after.rate - before.rate).norm(), 1e-6) << t;
+    EXPECT_NEAR(rising.at(t + 1e-9).acceleration.x(), rising.at(t - 1e-9).acceleration.x(), 1e-6) << t;
   }
+  EXPECT_EQ(table.at(1.2).value.z(), -2);
+}
+
+TEST(DisplacementTable, GoesStraightFromRowToRowIfAsked) {
+  const DisplacementTable straight(rows, RowJoin::linear);
+  EXPECT_EQ(straight.at(0.5).value, Eigen::Vector3d(0.5, 0, -1));
+  EXPECT_EQ(straight.at(1.25).rate, Eigen::Vector3d(4, 0, 0));
 }
 
 TEST(DisplacementTable, RefusesTimesThatDoNotIncrease) {

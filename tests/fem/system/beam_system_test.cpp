@@ -10,6 +10,7 @@
 #include "solver/system/consistent.h"
 #include "solver/system/tangent_matrix.h"
 #include "solver/system/tangent_rows.h"
+#include "tests/fem/axial_laws.h"
 #include "tests/fem/torsion_models.h"
 
 namespace nurbeam {
@@ -22,9 +23,11 @@ using testing::joined_model;
 using testing::line_cubic;
 using testing::model_with_everything;
 using testing::one_beam;
+using testing::other_laws;
 using testing::torsion_model;
 using testing::torsion_sliding_model;
 using testing::uneven_axis;
+using testing::with_law;
 
 Eigen::VectorXd random_vector(Eigen::Index size, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -62,7 +65,7 @@ void expect_second_order(const F& f, const Eigen::VectorXd& derivative, double h
   EXPECT_NEAR(coarse / fine, 4, 0.25) << coarse << " " << fine;
 }
 
-void expect_tangent(const BeamSystem& system, const State& state, std::mt19937& random) {
+void expect_tangent(const BeamSystem& system, const State& state, std::mt19937& random, double step = 5e-4) {
   const int n = system.coordinate_count(), m = system.constraint_count();
   State direction = state;
   direction.q = random_vector(n, random);
@@ -80,11 +83,11 @@ void expect_tangent(const BeamSystem& system, const State& state, std::mt19937& 
                                      tangent(system, state, {.damping = 1}) * by_v - constraint_rows(by_v) +
                                      tangent(system, state, {.mass = 1}) * by_a - constraint_rows(by_a);
   expect_second_order([&](double h) { return residual(system, moved(state, direction, h)); }, derivative,
-                      5e-4);
+                      step);
 }
 
 template <int D>
-void check_tangent(int seed, const auto& make_model) {
+void check_tangent(int seed, const auto& make_model, double step = 5e-4) {
   std::mt19937 random(seed);
   const BeamModel model = make_model(random, D);
   for (const bool held : {false, true}) {
@@ -93,7 +96,7 @@ void check_tangent(int seed, const auto& make_model) {
     const BeamSystem system(model, initial_plan(model), all_held);
     State state = disturbed_state(system, random);
     state.t = 0.3;
-    expect_tangent(system, state, random);
+    expect_tangent(system, state, random, step);
   }
 }
 
@@ -112,6 +115,19 @@ TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentWithTorsion) {
   for (const int seed : {14, 15}) check_tangent<3>(seed, torsion_model);
   for (const int seed : {18, 19})
     check_tangent<3>(seed, [](std::mt19937& random, int) { return torsion_sliding_model(random, 0); });
+}
+
+TEST(BeamSystem, HasTheDerivativeOfItsResidualAsTangentByEveryAxialLaw) {
+  for (const AxialLaw& law : other_laws()) {
+    const auto by_law = [&](const auto& make) {
+      return [&law, &make](std::mt19937& random, int dimension) {
+        return with_law(make(random, dimension), law);
+      };
+    };
+    check_tangent<2>(21, by_law(model_with_everything), 2e-4);
+    check_tangent<3>(22, by_law(model_with_everything), 2e-4);
+    check_tangent<3>(23, by_law(torsion_model), 2e-4);
+  }
 }
 
 TEST(BeamSystem, FindsTwoTangentsAtOnce) {
@@ -273,6 +289,19 @@ void check_constraints(int seed, const auto& make_model) {
   const Eigen::VectorXd second = (constraints(h) - 2 * constraints(0) + constraints(-h)) / (h * h);
   const Eigen::VectorXd expected = G * state.a + system.constraint_curvature(state);
   EXPECT_LT((second - expected).norm(), 1e-3 * expected.norm());
+  // Rows that are left out have the same gradient in all states.
+  Eigen::VectorXd turning(m);
+  system.turning_speeds(state, turning);
+  const Eigen::VectorXd speeds = G * state.v + system.constraint_rate(state);
+  State other = state;
+  other.q += h * state.v;
+  other.t += h;
+  const Eigen::MatrixXd other_G = Eigen::MatrixXd(tangent(system, other, {})).bottomLeftCorner(m, n);
+  for (int row = 0; row < m; ++row)
+    if (turning[row] == 0)
+      EXPECT_LT((other_G.row(row) - G.row(row)).norm(), 1e-14 * G.row(row).norm()) << row;
+    else
+      EXPECT_NEAR(turning[row], speeds[row], 1e-14 * G.norm()) << row;
 }
 
 TEST(BeamSystem, KnowsTheRateAndCurvatureOfItsConstraintsInThePlane) {

@@ -29,6 +29,8 @@ BeamModel connected_model(std::mt19937& random, int dimension) {
     return c;
   };
   fastened(on(1.1), Grip::on_body(load), ConnectorType::spring);
+  fastened(on(0.8), Grip::on_body(other), ConnectorType::tension_only).rows =
+      ForceRows({{-1, -90}, {0, 0}, {0.05, 1}, {4, 300}});
   fastened(Grip::on_body(slider), Grip::on_body(load), ConnectorType::tension_only).length = 0.1;
   fastened(on(0.3), Grip::at_point({0.3, -1, 0}), ConnectorType::compression_only).length = 3;
   Connector& upright = fastened(on(1.5), Grip::on_body(other), ConnectorType::spring);

@@ -2,6 +2,7 @@
 #include "pipelines/case/case_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -145,11 +146,12 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(joint.at.kind, Place::Kind::length);
   EXPECT_DOUBLE_EQ(joint.at.value, 0.1);
   EXPECT_EQ(joint.speed, 2);
-  EXPECT_FALSE(joint.continuous_slope);
+  EXPECT_EQ(joint.slope, SlopeRule::discontinuous);
   EXPECT_FALSE(joint.leave_at_end);
   EXPECT_EQ(c.sliding_joints.at(1).motion_speed, 5);
   EXPECT_EQ(c.sliding_joints.at(2).motion_table, (TimeTable{{0, 0}, {1, 0.05}}));
-  EXPECT_TRUE(c.sliding_joints[2].leave_at_end && c.sliding_joints[2].continuous_slope);
+  EXPECT_TRUE(c.sliding_joints[2].leave_at_end);
+  EXPECT_EQ(c.sliding_joints[2].slope, SlopeRule::automatic);
   EXPECT_TRUE(c.analysis.start_from_equilibrium);
   EXPECT_DOUBLE_EQ(c.analysis.end_time, 0.7);
   EXPECT_EQ(c.analysis.step, 1e-3);
@@ -559,6 +561,36 @@ TEST_F(CaseFileTest, NestingIsLimited) {
   read_valid("/* " + nested + " */ // " + nested + "\n" + smallest_case);
 }
 
+TEST_F(CaseFileTest, NamesThatOtherFilesCannotHoldAreRefused) {
+  const auto named = [](const std::string& name) { return "beams[0].name=\"" + name + "\""; };
+  const auto on = [](const std::string& name) { return "supports[0].beam=\"" + name + "\""; };
+  for (const char first : {'=', '+', '-', '@'})
+    expect_error({named(first + std::string("cmd|' /C calc'!A0"))}, "beams[0].name",
+                 {"must not begin with = + - or @", "histories.csv"});
+  expect_error({named("a,b")}, "beams[0].name", {"must not hold commas, quotes or control characters"});
+  expect_error({named("a\\nb")}, "beams[0].name", {"must not hold commas, quotes or control characters"});
+  const CaseFileReport megabyte = read(smallest_case, {named(std::string(1 << 20, 'x'))});
+  check_error(megabyte, file() + ": beams[0].name", {"at most 250 characters, not 1048576"});
+  EXPECT_LT(messages(megabyte).size(), 1000U);
+  std::string umlauts;
+  for (int i = 0; i < 250; ++i) umlauts += "\u00e4";
+  EXPECT_EQ(read_valid(smallest_case, {named(umlauts), on(umlauts)}).beams[0].name, umlauts);
+  for (const char* name : {"x') y", "b (m')", "5') b", "a=b", "2-1"})
+    EXPECT_EQ(read_valid(smallest_case, {named(name), on(name)}).beams[0].name, name);
+}
+
+// Opened for reading, a pipe would wait for what writes to it.
+TEST_F(CaseFileTest, APipeIsRefusedAtOnce) {
+  const auto pipe = directory_.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const CaseFileReport report = read_case_file(pipe);
+  EXPECT_FALSE(report.value);
+  EXPECT_NE(messages(report).find("is a device or a pipe"), std::string::npos) << messages(report);
+  expect_error({R"(loads=[{"beam": "cable", "at": "end", "force": [0, 0, 1], "time": {"file": "pipe"}}])"},
+               "loads[0].time.file", {"is a device or pipe"});
+  expect_error({"beams[0].axis={\"file\": \"pipe\"}"}, "beams[0].axis.file", {"is a device or pipe"});
+}
+
 TEST_F(CaseFileTest, AnAxisFileThatIsNoFileSaysWhatItIs) {
   const auto axis = [](const std::string& file) { return "beams[0].axis={\"file\": \"" + file + "\"}"; };
   expect_error({axis(".")}, "beams[0].axis.file",
@@ -610,9 +642,8 @@ TEST_F(CaseFileTest, KeysOfMotionsAreWarnedOfWhereThereIsNone) {
           << d.message;
       places.insert(d.where.substr(file().size() + 2));
     }
-    EXPECT_EQ(places,
-              (std::set<std::string>{"analysis.end_time", "analysis.step", "analysis.initial",
-                                     "analysis.integrator", "output.every", "beams[0].initial.velocity"}))
+    EXPECT_EQ(places, (std::set<std::string>{"analysis.end_time", "analysis.step", "analysis.initial",
+                                             "analysis.integrator", "beams[0].initial.velocity"}))
         << messages(report);
     EXPECT_EQ(report.value->analysis.length_control.min, 0.2);
     EXPECT_FALSE(report.value->output.every);
@@ -712,6 +743,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "coefficient",
                                                "static",
                                                "law",
+                                               "settle",
                                                "viscous",
                                                "stick_stiffness",
                                                "stops",
@@ -749,6 +781,14 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "point",
                                                "stiffness",
                                                "end_masses",
+                                               "bends",
+                                               "clearances",
+                                               "compression",
+                                               "force_over",
+                                               "interpolation",
+                                               "law",
+                                               "tangents",
+                                               "through",
                                                "to"};
   collect_keys(nlohmann::json::parse(case_file_schema()), in_schema);
   collect_used_keys(nlohmann::json::parse(full_case, nullptr, true, true), in_cases);
@@ -763,7 +803,7 @@ TEST_F(CaseFileTest, TheSchemaStatesRangesChoicesAndExclusions) {
   EXPECT_EQ(beam.at("section").at("properties").at("radius").at("minimum"), 1e-9);
   EXPECT_EQ(beam.at("section").at("dependentRequired").at("second_moment"), nlohmann::json::array({"area"}));
   EXPECT_EQ(beam.at("weights").at("enum"), nlohmann::json({"material", "constant"}));
-  EXPECT_EQ(beam.at("axis").at("allOf").at(0).at("oneOf").size(), 4u);
+  EXPECT_EQ(beam.at("axis").at("allOf").at(0).at("oneOf").size(), 5u);
 }
 
 // Both have a length among the histories.

@@ -181,7 +181,9 @@ TEST(CommandLine, ExportWritesTheStoredCurveExactly) {
   Snapshot frame{};
   frame.beams.resize(1);
   for (std::size_t i = 0; i < path.segments.size(); ++i)
-    frame.beams[0].elements.push_back({path.segments[i].points(), path.breaks[i], path.breaks[i + 1]});
+    frame.beams[0].elements.push_back({.control_points = path.segments[i].points(),
+                                       .s_start = path.breaks[i],
+                                       .s_end = path.breaks[i + 1]});
   writer.write(frame);
   writer.finish();
   const std::string file = (directory.path() / "deformed.step").string();
@@ -201,7 +203,8 @@ TEST(CommandLine, ExportTellsBadInputFromWhatCannotBeWritten) {
   ResultsWriter writer(directory.path(), {{}, {}, {"cable"}}, "title");
   Snapshot frame{};
   frame.beams.resize(1);
-  frame.beams[0].elements = {{BezierPath::from_nurbs(quarter_circle(), 1e-9).segments[0].points(), 0, 1}};
+  const BezierPath path = BezierPath::from_nurbs(quarter_circle(), 1e-9);
+  frame.beams[0].elements = {{.control_points = path.segments[0].points(), .s_start = 0, .s_end = 1}};
   writer.write(frame);
   writer.finish();
   const auto code = [&](const std::string& results, const std::string& time, const std::string& file) {

@@ -95,6 +95,37 @@ TEST_F(Convert, CurvesAreTheSameInEveryFormatAndBack) {
   }
 }
 
+TEST_F(Convert, LayersAndColoursAreKeptOrToldAsLost) {
+  const std::string source = file("looks.json", R"({"unit": "m", "curves": [
+    {"name": "cable", "layer": "Träger 1", "colour": "#ff8001", "degree": 1, "knots": [0, 0, 1, 1],
+     "control_points": [[0, 0], [1, 0]]},
+    {"name": "rail", "layer": "7", "colour": "#00ff00", "degree": 2, "knots": [0, 0, 0, 1, 1, 1],
+     "control_points": [[0, 0], [1, 0], [1, 2]]},
+    {"name": "plain", "degree": 1, "knots": [0, 0, 1, 1], "control_points": [[3, 0], [1, 0]]}]})");
+  for (const auto& [name, lost] :
+       std::vector<std::pair<std::string, std::string>>{{"c.step", ""},
+                                                        {"c.json", ""},
+                                                        {"c.dxf", "names of 2 curve(s)"},
+                                                        {"c.igs", "layers of 1 curve(s)"}}) {
+    const Answer answer = answer_to({"convert", source, file(name)});
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(answer.err.empty(), lost.empty()) << answer.err;
+    EXPECT_NE(answer.err.find(lost), std::string::npos) << answer.err;
+    const std::vector<ImportedCurve> back = curves_of(file(name));
+    ASSERT_EQ(back.size(), 3U) << name;
+    EXPECT_EQ(back[0].colour, "#ff8001") << name;
+    EXPECT_EQ(back[1].colour, "#00ff00") << name;
+    EXPECT_EQ(back[2].colour, "") << name;
+    EXPECT_EQ(back[0].layer, name == "c.igs" ? "" : "Träger 1") << name;
+    EXPECT_EQ(back[1].layer, "7") << name;
+  }
+  const Answer brep = answer_to({"convert", source, file("c.brep")});
+  EXPECT_NE(brep.err.find("names of 3, layers of 2, colours of 2 curve(s)"), std::string::npos) << brep.err;
+  EXPECT_EQ(std::count(brep.err.begin(), brep.err.end(), '\n'), 1) << brep.err;
+  ASSERT_EQ(answer_to({"convert", source, file("c.svg")}).code, 0);
+  EXPECT_NE(content_of(file("c.svg")).find("stroke=\"#ff8001\""), std::string::npos);
+}
+
 TEST_F(Convert, CurvesAreChosenByNameOrNumber) {
   const std::string source = file("source.json", three_curves);
   ASSERT_EQ(answer_to({"convert", source, file("two.json"), "--curve", "line", "--curve", "1"}).code, 0);
@@ -160,10 +191,10 @@ TEST_F(Convert, HiddenCurvesAreWrittenOnlyByName) {
   const Answer answer = answer_to({"convert", source, file("shown.step")});
   ASSERT_EQ(answer.code, 0);
   EXPECT_NE(answer.err.find("1 hidden curve(s) are left out"), std::string::npos) << answer.err;
-  EXPECT_NE(answer.err.find("colours of 1 curve(s)"), std::string::npos) << answer.err;
   const std::vector<ImportedCurve> shown = curves_of(file("shown.step"));
   ASSERT_EQ(shown.size(), 1U);
   EXPECT_EQ(shown[0].name, "b");  // of its layer
+  EXPECT_EQ(shown[0].colour, "#ff0000");
   ASSERT_EQ(answer_to({"convert", source, file("all.dxf"), "--curve", "1", "--curve", "2"}).code, 0);
   EXPECT_EQ(curves_of(file("all.dxf")).size(), 2U);
 }

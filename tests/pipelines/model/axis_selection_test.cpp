@@ -393,6 +393,20 @@ TEST(PipeSection, KeepsTheTorsionConstantThatIsGiven) {
   EXPECT_NEAR(pipe.value->model.beams[0].properties.sections->torsion, 20e6 / 2.5 * 1e-3, 1e-6);
 }
 
+TEST(PipeSection, OfASquareTubeIsItsAreaAndSecondMoment) {
+  const test::TemporaryDirectory directory;
+  const std::string file = test::source_directory() / "tests/corpus/kinds/mitred_square_tube.step";
+  const CaseFileReport report = read_case_file(
+      directory.write("case.json", test::smallest_case),
+      {"beams[0].axis={\"file\": \"" + file + "\", \"curve\": 41}", R"(beams[0].section={"from": "cad"})"});
+  const BuildReport tube = build_model(report.value.value());
+  ASSERT_TRUE(tube.value);
+  const Beam& beam = tube.value->model.beams[0];
+  EXPECT_NEAR(beam.curve.length(), 0.2, 1e-12);
+  EXPECT_NEAR(beam.properties.axial_stiffness, 20e6 * (0.04 * 0.04 - 0.034 * 0.034), 1e-9);
+  EXPECT_NEAR(beam.properties.bending_stiffness, 20e6 * (std::pow(0.04, 4) - std::pow(0.034, 4)) / 12, 1e-12);
+}
+
 TEST(PipeSection, NeedsACentreLine) {
   const test::TemporaryDirectory directory;
   const CaseFileReport report = read_case_file(directory.write("case.json", test::smallest_case),

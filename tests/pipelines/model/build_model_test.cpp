@@ -376,6 +376,9 @@ TEST(BuildModel, RefusesWhatABeamWithTorsionCannotBe) {
                       "sliding_joints[0].offset", {"follows_section"}));
   EXPECT_TRUE(refuses(built({on, R"(beams[0].orientation={"twist": [[1, 0], [0, 9]]})"}),
                       "beams[0].orientation.twist", {"places must increase"}));
+  EXPECT_TRUE(refuses(built({on, "beams[0].corners=hinge",
+                             R"(beams[0].axis={"polyline": [[0, 0, 0], [1, 0, 0], [0.5, 0, 0]]})"}),
+                      "beams[0].axis", {"turns right back", "(1, 0, 0) m", "\"curve\""}));
 }
 
 }  // namespace

@@ -52,6 +52,26 @@ TEST(Progress, AResumedRunTellsItsSpeedAndTimeToGoFromWhereItGoesOn) {
   EXPECT_EQ(out.str(), " 60 %  t = 0.6 of 1 s  40 s to go  0.01 simulated s/s  step 0.01 s, 3 Newton\n");
 }
 
+TEST(Progress, ATerminalLineFitsTheTerminal) {
+  for (const std::size_t width : {20, 40, 60, 80}) {
+    std::ostringstream out;
+    Progress progress(out, Progress::Style::terminal, 0, 123.456789, start, width);
+    progress.update(at(123.456789), start + seconds(100000));
+    std::string line = out.str().substr(1);
+    line.resize(line.find('\x1b'));
+    EXPECT_LT(line.size(), width) << line;
+    EXPECT_EQ(line.find("100 %"), 0u) << line;
+  }
+}
+
+TEST(Progress, TheSearchForRestDoesNotCountForTheTimeToGo) {
+  std::ostringstream out;
+  Progress progress(out, Progress::Style::lines, 0, 1, start);
+  progress.begin_motion(start + seconds(1000));
+  progress.update(at(0.1), start + seconds(1001));
+  EXPECT_NE(out.str().find("  9 s to go"), std::string::npos) << out.str();
+}
+
 TEST(Progress, QuietMeansQuiet) {
   std::ostringstream out;
   Progress progress(out, Progress::Style::quiet, 0, 1, start);

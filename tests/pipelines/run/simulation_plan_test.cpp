@@ -29,5 +29,14 @@ TEST(EnergyWarning, NamesTheFormOfTheElementsWhereItIsTheCause) {
   EXPECT_EQ(cure(c).find("elements or"), std::string::npos) << cure(c);
 }
 
+TEST(FoldWarning, RingsWhereAnElementTurnsRoundAndNamesTheCause) {
+  EXPECT_FALSE(fold_warning("c.json", {.value = 0.19, .beam = "r", .s = 7.2, .time = 0.5}));
+  const auto warning = fold_warning("c.json", {.value = 0.23, .beam = "r", .s = 7.2, .time = 0.5});
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->severity, Severity::warning);
+  for (const char* part : {"\"r\" folds back", "s = 7.2 m", "t = 0.5 s", "R = 0.23", "more elements"})
+    EXPECT_NE(warning->message.find(part), std::string::npos) << part;
+}
+
 }  // namespace
 }  // namespace nurbeam

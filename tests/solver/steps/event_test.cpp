@@ -6,8 +6,8 @@
 
 #include "solver/steps/explicit_integrator.h"
 #include "solver/steps/generalized_alpha.h"
-#include "solver/steps/ida_integrator.h"
 #include "solver/steps/radau_integrator.h"
+#include "tests/support/ida/ida_integrator.h"
 #include "tests/support/small_systems.h"
 
 namespace nurbeam {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "solver/steps/generalized_alpha.h"
-#include "solver/steps/ida_integrator.h"
+#include "tests/support/ida/ida_integrator.h"
 #include "tests/support/small_systems.h"
 
 namespace nurbeam {

@@ -1,4 +1,4 @@
-#include "solver/steps/ida_integrator.h"
+#include "tests/support/ida/ida_integrator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "solver/steps/stabilised_equations.h"
+#include "tests/support/ida/stabilised_equations.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "solver/steps/ida_integrator.h"
+#include "tests/support/ida/ida_integrator.h"
 
 #include <ida/ida.h>
 #include <sunlinsol/sunlinsol_klu.h>
@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "solver/algebra/sundials_border.h"
-#include "solver/steps/stabilised_equations.h"
 #include "solver/system/arguments.h"
+#include "tests/support/ida/stabilised_equations.h"
 
 namespace nurbeam {
 

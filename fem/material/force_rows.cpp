@@ -1,4 +1,4 @@
-#include "fem/material/force_over_stretch.h"
+#include "fem/material/force_rows.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -8,18 +8,13 @@
 
 namespace nurbeam {
 
-ForceOverStretch::ForceOverStretch(std::vector<std::pair<double, double>> rows) : rows_(std::move(rows)) {
-  if (rows_.size() < 2) throw std::invalid_argument("a law of force over stretch needs two rows at least");
+ForceRows::ForceRows(std::vector<std::pair<double, double>> rows) : rows_(std::move(rows)) {
+  if (rows_.size() < 2) throw std::invalid_argument("needs two rows at least");
   for (std::size_t i = 1; i < rows_.size(); ++i)
     if (!(rows_[i].first > rows_[i - 1].first && rows_[i].second > rows_[i - 1].second))
-      throw std::invalid_argument(
-          "in row " + std::to_string(i + 1) +
-          " of force over stretch, stretch and force must be greater than in the row before; "
-          "they are " +
-          text_of(rows_[i].first) + " and " + text_of(rows_[i].second) + " N");
-  if (rows_.front().first <= -1)
-    throw std::invalid_argument("the first row of force over stretch is at " + text_of(rows_.front().first) +
-                                "; a beam is compressed to nothing at -1");
+      throw std::invalid_argument("row " + std::to_string(i + 1) + " has a stretch of " +
+                                  text_of(rows_[i].first) + " and a force of " + text_of(rows_[i].second) +
+                                  " N; both must be greater than in the row before");
   slopes_ = monotone_slopes(rows_);
   energies_.assign(rows_.size(), 0);
   for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -31,7 +26,7 @@ ForceOverStretch::ForceOverStretch(std::vector<std::pair<double, double>> rows) 
 }
 
 // Law at e with the energy counted from the first row.
-AxialPoint<double> ForceOverStretch::from_start(double e) const {
+ForceRows::Point ForceRows::from_start(double e) const {
   const bool before = e <= rows_.front().first;
   if (before || e >= rows_.back().first) {
     const std::size_t i = before ? 0 : rows_.size() - 1;
@@ -50,10 +45,22 @@ AxialPoint<double> ForceOverStretch::from_start(double e) const {
           rows_[i].second + x * (slopes_[i] + x * (a + x * b)), slopes_[i] + x * (2 * a + 3 * b * x)};
 }
 
-AxialPoint<double> ForceOverStretch::at(double e) const {
-  AxialPoint<double> point = from_start(e);
+ForceRows::Point ForceRows::at(double e) const {
+  Point point = from_start(e);
   point.energy -= energy_at_zero_;
   return point;
+}
+
+double ForceRows::stretch(double force) const {
+  const bool before = force <= rows_.front().second;
+  if (before || force >= rows_.back().second) {
+    const std::size_t i = before ? 0 : rows_.size() - 1;
+    return rows_[i].first + (force - rows_[i].second) / slopes_[i];
+  }
+  double low = rows_.front().first, high = rows_.back().first;
+  for (double middle = (low + high) / 2; middle > low && middle < high; middle = (low + high) / 2)
+    (at(middle).force < force ? low : high) = middle;
+  return high;
 }
 
 }  // namespace nurbeam

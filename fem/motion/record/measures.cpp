@@ -1,0 +1,121 @@
+#include "fem/motion/record/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fem/system/material_points.h"
+#include "nurbs/golden_section.h"
+
+namespace nurbeam {
+
+namespace {
+
+using Eigen::Vector3d;
+constexpr double nothing = std::numeric_limits<double>::infinity();
+
+// A beam in a state, by reference arc length.
+class ShapeOfBeam {
+ public:
+  ShapeOfBeam(const BeamSystem& system, const State& state, int beam)
+      : system_(system), state_(state), beam_(beam), first_(system.mesh().first_span[beam]) {}
+
+  double start() const { return system_.mesh().spans[first_].start(state_.q); }
+  double end() const { return system_.mesh().spans[system_.mesh().first_span[beam_ + 1] - 1].end(state_.q); }
+  double place(const PartEnd& end) const {
+    if (end.rider < 0) return end.s;
+    const int place = system_.mesh().riders[end.rider].place;  // none after it has left
+    return place < 0 ? std::nan("") : state_.q[place];
+  }
+  Vector3d point(double s) const {
+    const int span = find_span(system_.model(), system_.mesh(), state_.q, beam_, s);
+    return material_point_in(system_, state_, span, s).r;
+  }
+
+  // Where a height is least between two places: samples in each element, then a search beside the lowest.
+  // Infinite heights count for nothing.
+  template <class Height>
+  Extreme lowest(double from, double to, const Height& height) const {
+    constexpr int samples = 4, steps = 40;
+    const auto at = [&](double s) { return height(point(s)); };
+    double best = nothing, s_best = 0, beside = 0;
+    const auto look_at = [&](double s, double reach) {
+      if (const double here = at(s); here < best) best = here, s_best = s, beside = reach;
+    };
+    for (int i = first_; i < system_.mesh().first_span[beam_ + 1]; ++i) {
+      const MeshSpan& span = system_.mesh().spans[i];
+      const double a = std::max(from, span.start(state_.q)), b = std::min(to, span.end(state_.q));
+      for (int k = 0; k <= samples && a < b; ++k) look_at(a + (b - a) * k / samples, (b - a) / samples);
+    }
+    if (best == nothing) return {};
+    const double s = minimum_place(at, std::max(from, s_best - beside), std::min(to, s_best + beside), steps);
+    look_at(s, 0);
+    return {best, s_best};
+  }
+
+ private:
+  const BeamSystem& system_;
+  const State& state_;
+  int beam_, first_;
+};
+
+// Height over a profile: over its nearest point in plan.
+class HeightOver {
+ public:
+  HeightOver(const std::vector<Vector3d>& profile, const Vector3d& up) : profile_(profile), up_(up) {}
+
+  double operator()(const Vector3d& point) const {
+    double nearest = nothing, height = nothing;
+    bool is_beyond = true;
+    for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
+      const Vector3d along = profile_[i + 1] - profile_[i], from = point - profile_[i];
+      const Vector3d in_plan = plan(along);
+      if (in_plan.squaredNorm() == 0) continue;
+      const double free = in_plan.dot(from) / in_plan.squaredNorm(), x = std::clamp(free, 0.0, 1.0);
+      const double away = plan(from - x * along).norm();
+      if (!(away < nearest)) continue;
+      nearest = away;
+      height = (from - x * along).dot(up_);
+      is_beyond = (i == 0 && free < -round_off) || (i + 2 == profile_.size() && free > 1 + round_off);
+    }
+    return is_beyond ? nothing : height;
+  }
+
+ private:
+  static constexpr double round_off = 1e-9;
+  Vector3d plan(const Vector3d& v) const { return v - v.dot(up_) * up_; }
+
+  const std::vector<Vector3d>& profile_;
+  Vector3d up_;
+};
+
+Extreme sag_of(const ShapeOfBeam& part, const PartSag& of, const Vector3d& up) {
+  constexpr double upright = 0.1;  // as of Chord
+  const double from = part.place(of.from), to = part.place(of.to);
+  if (!(from < to)) return {};
+  const Vector3d start = part.point(from), chord = part.point(to) - start;
+  const Vector3d across = chord - chord.dot(up) * up;
+  if (across.norm() <= upright * chord.norm()) return {};
+  Extreme lowest = part.lowest(from, to, [&](const Vector3d& point) {
+    const Vector3d d = point - start;
+    return d.dot(up) - d.dot(across) / across.squaredNorm() * chord.dot(up);
+  });
+  lowest.value = std::max(-lowest.value, 0.0);
+  return lowest;
+}
+
+}  // namespace
+
+Extreme record_measure(const BeamSystem& system, const State& state, const Measure& measure) {
+  const Vector3d gravity = system.model().gravity;
+  if (gravity.norm() == 0) return {};
+  const Vector3d up = -gravity.normalized();
+  if (const auto* sag = std::get_if<PartSag>(&measure))
+    return sag_of(ShapeOfBeam(system, state, sag->beam), *sag, up);
+  const auto& clearance = std::get<Clearance>(measure);
+  const ShapeOfBeam whole(system, state, clearance.beam);
+  return whole.lowest(whole.start(), whole.end(), HeightOver(clearance.profile, up));
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,10 @@
+#pragma once
+#include <string>
+
+namespace nurbeam {
+
+/// A value in SI as people read it, with four digits: 0.0016577 m is "1.658 mm", 137e6 Pa "137 MPa". Units:
+/// m, N, N m, Pa, J, m/s, rad; others stay as they are.
+std::string readable(double value, const std::string& unit);
+
+}  // namespace nurbeam

@@ -1,0 +1,96 @@
+#include "pipelines/run/closing_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "nurbs/number_text.h"
+#include "pipelines/diagnostics/readable_quantity.h"
+
+namespace nurbeam {
+
+namespace {
+
+/// A quantity that the lines show: the largest among all parts of the model.
+struct Shown {
+  const char* ending;  ///< of its name in the extremes
+  const char* name;
+  const char* unit;
+};
+constexpr Shown all_shown[] = {{".displacement.max", "displacement", "m"},
+                               {".stress.max", "stress", "Pa"},
+                               {".axial_force.max", "tension", "N"},
+                               {".force", "support force", "N"},
+                               {".speed", "speed", "m/s"}};
+
+// Extremes of connectors end as those of supports do; supports stand before them.
+std::optional<RunExtreme> largest(const std::vector<RunExtreme>& extremes, const Shown& shown) {
+  std::optional<RunExtreme> found;
+  for (const RunExtreme& each : extremes)
+    if (each.quantity.ends_with(shown.ending) && each.unit == shown.unit && std::isfinite(each.value) &&
+        each.value != 0 && (!found || std::abs(each.value) > std::abs(found->value)))
+      found = each;
+  return found;
+}
+
+std::string text_of_extreme(const RunExtreme& extreme, const Shown& shown, bool moves) {
+  constexpr int digits = 4;
+  const std::string of =
+      extreme.quantity.substr(0, extreme.quantity.size() - std::string(shown.ending).size());
+  std::string text = std::string(shown.name) + " " + readable(extreme.value, extreme.unit) + " (" + of;
+  if (extreme.s) text += ", s = " + text_of(*extreme.s, digits) + " m";
+  if (moves) text += ", t = " + text_of(extreme.time, digits) + " s";
+  return text + ")";
+}
+
+std::string extremes_line(const std::vector<RunExtreme>& extremes, bool moves) {
+  std::string line;
+  for (const Shown& shown : all_shown)
+    if (const auto extreme = largest(extremes, shown))
+      line += (line.empty() ? "largest " : "; ") + text_of_extreme(*extreme, shown, moves);
+  return line;
+}
+
+std::string energy_line(const RunSummary& summary, const SimulationReport& run, bool moves) {
+  if (!moves) {
+    double strain = 0;
+    for (const RunExtreme& each : summary.extremes)
+      if (each.quantity == "energy.axial" || each.quantity == "energy.bending") strain += each.value;
+    return "strain energy " + readable(strain, "J");
+  }
+  const double most =
+      std::max({run.peak_kinetic_energy, run.strain_energy.width(), run.gravity_energy.width()});
+  std::string line = "energy balance kept to " + readable(summary.energy_drift, "J");
+  if (most > 0) line += ", " + text_of(100 * summary.energy_drift / most, 2) + " % of the energy that moves";
+  return line;
+}
+
+std::string counted(long count, const std::string& name) {
+  return std::to_string(count) + " " + name + (count == 1 ? "" : "s");
+}
+
+std::string warnings_line(const std::vector<Diagnostic>& diagnostics) {
+  const auto count = [&](Severity severity) {
+    return static_cast<long>(std::ranges::count(diagnostics, severity, &Diagnostic::severity));
+  };
+  const long warnings = count(Severity::warning), notes = count(Severity::note);
+  std::string line = warnings == 0 ? "no warnings" : counted(warnings, "warning");
+  if (notes > 0) line += ", " + counted(notes, "note");
+  return warnings + notes > 0 ? line + ": see above, or run.json" : line;
+}
+
+}  // namespace
+
+std::vector<std::string> closing_lines(const RunSummary& summary, const SimulationReport& run, bool moves,
+                                       const std::filesystem::path& out, bool report) {
+  std::vector<std::string> lines;
+  if (!summary.modes) {
+    if (std::string line = extremes_line(summary.extremes, moves); !line.empty()) lines.push_back(line);
+    lines.push_back(energy_line(summary, run, moves));
+  }
+  lines.push_back(warnings_line(summary.diagnostics));
+  lines.push_back(report ? "open " + (out / "report.html").string() : "results in " + out.string());
+  return lines;
+}
+
+}  // namespace nurbeam

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fem/motion/record/simulation_report.h"
+#include "pipelines/results/run_summary.h"
+
+namespace nurbeam {
+
+/// What came of a run, in a few lines: its extremes with their places, its energy balance, the number of
+/// warnings, and where to look on. `moves`: whether the run is a motion; `report`: whether it has one.
+std::vector<std::string> closing_lines(const RunSummary& summary, const SimulationReport& run, bool moves,
+                                       const std::filesystem::path& out, bool report);
+
+}  // namespace nurbeam

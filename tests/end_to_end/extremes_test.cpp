@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam::of_extremes {
+namespace {
+
+using std::numbers::pi;
+
+struct RunOf {
+  test::CaseRun run;
+  nlohmann::json list;
+
+  const nlohmann::json& of(const std::string& quantity) const {
+    for (const nlohmann::json& each : list)
+      if (each.at("quantity") == quantity) return each;
+    throw std::out_of_range("no extreme " + quantity);
+  }
+  double value(const std::string& quantity) const { return of(quantity).at("value"); }
+  double place(const std::string& quantity) const { return of(quantity).at("s [m]"); }
+  double time(const std::string& quantity) const { return of(quantity).at("time [s]"); }
+};
+
+RunOf extremes_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const test::TemporaryDirectory directory;
+  const auto file = directory.write("case.json", text);
+  const auto results = directory.path() / "out";
+  std::vector<std::string> words = {"run", file.string(), "--quiet", "--out", results.string()};
+  for (const std::string& override : overrides) words.insert(words.end(), {"--set", override});
+  std::ostringstream out, err;
+  const test::CapturedErrors errors;
+  RunOf found;
+  found.run.code = run_command_line(words, out, err);
+  found.run.messages = err.str() + errors.text();
+  EXPECT_EQ(found.run.code, 0) << found.run.messages;
+  test::read_histories(results / "histories.csv", found.run);
+  std::ifstream stream(results / "run.json");
+  found.list = nlohmann::json::parse(stream).at("extremes");
+  return found;
+}
+
+std::string with_elements(int count) { return "beams[0].elements={\"count\":" + std::to_string(count) + "}"; }
+
+const std::string bar = R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+  "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] },
+    "section": { "radius": "10 mm" }, "material": "steel" }],
+  "supports": [{ "beam": "b", "at": "start", "type": "pinned" }, { "beam": "b", "at": "end", "type": "pinned" }],
+  "loads": [{ "beam": "b", "force_per_length": [0, 0, -10] }], "analysis": { "type": "static" },
+  "output": { "report": false } })";
+
+// 5 q L^4/(384 EI) and q L^2/8 at the middle.
+TEST(Extremes, OfASimplySupportedBarAreRightWithAnyNumberOfElements) {
+  const double EI = 2.1e11 * pi / 4 * 1e-8, sag = 5 * 10 / (384 * EI), moment = 10. / 8,
+               stress = moment * 0.01 / (pi / 4 * 1e-8);
+  for (const std::string& torsion : {std::string("false"), std::string("true")})
+    for (int count = 1; count <= 5; ++count) {
+      const RunOf found = extremes_of(bar, {with_elements(count), "beams[0].torsion=" + torsion});
+      EXPECT_NEAR(found.value("b.displacement.max"), sag, 2e-4 * sag) << count << torsion;
+      EXPECT_NEAR(found.place("b.displacement.max"), 0.5, 1e-3) << count;
+      EXPECT_NEAR(std::abs(found.value("b.moment.max")), moment, 2e-4 * moment) << count;
+      EXPECT_NEAR(found.place("b.moment.max"), 0.5, 1e-3) << count;
+      EXPECT_NEAR(std::abs(found.value("b.stress.max")), stress, 2e-3 * stress) << count;
+      EXPECT_NEAR(found.run.last("b.displacement.max [m]"), sag, 2e-4 * sag) << count;
+    }
+}
+
+// P a b/L under the force, which stands inside an element; the force of a body is one there.
+TEST(Extremes, AreFoundUnderAForceInsideAnElement) {
+  const double a = 0.3, P = 25, moment = P * a * (1 - a);
+  for (int count = 1; count <= 4; ++count) {
+    const RunOf found = extremes_of(
+        bar,
+        {with_elements(count), "loads=null", "analysis={\"type\": \"static\"}", "gravity=[0, 0, -10]",
+         "beams[0].material={\"density\": 1e-3, \"youngs_modulus\": 2.1e11}",
+         R"(bodies=[{"name": "m", "mass": 2.5}])",
+         R"(sliding_joints=[{"body": "m", "beam": "b", "at": {"length": 0.3}, "carried_as": "point", "equilibrium": "held"}])"});
+    EXPECT_NEAR(std::abs(found.value("b.moment.max")), moment, 1e-3 * moment) << count;
+    EXPECT_NEAR(found.place("b.moment.max"), a, 1e-6) << count;
+  }
+}
+
+// A weight that is let go on a spring swings to twice its static force; stored rows are far apart.
+const std::string swing = R"({ "nurbeam": 1, "gravity": [0, 0, -10],
+  "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": "10 mm" },
+    "material": { "density": 2000, "youngs_modulus": 2e9 }, "elements": { "count": 6 } }],
+  "supports": [{ "beam": "b", "at": "start", "type": "clamped", "name": "wall" }],
+  "analysis": { "end_time": 1, "step": 1e-3 }, "output": { "report": false } })";
+
+TEST(Extremes, OfAMotionAreThoseOfAllStepsAndNotOfStoredRows) {
+  for (const char* step : {"analysis.step=1e-3", "analysis.step=null"}) {
+    const RunOf each = extremes_of(swing, {step, "output.every=1e-3"}),
+                few = extremes_of(swing, {step, "output.every=1"});
+    ASSERT_EQ(few.run.rows.size(), 2u);
+    for (const char* quantity : {"wall.force", "wall.couple", "b.displacement.max", "b.moment.max",
+                                 "b.stress.max", "energy.kinetic", "energy.bending"}) {
+      const double right = std::abs(each.value(quantity));
+      EXPECT_NEAR(std::abs(few.value(quantity)), right, 0.03 * right) << quantity << " " << step;
+      EXPECT_GT(few.time(quantity), 0) << quantity;
+      EXPECT_LT(few.time(quantity), 1) << quantity;
+    }
+  }
+}
+
+// A pendulum that swings through the upright: below its chord means nothing there.
+TEST(Sag, IsLeftEmptyWhereTheChordIsUpright) {
+  const test::TemporaryDirectory directory;
+  const test::CaseRun run = test::run_file(directory.write("case.json", R"({ "nurbeam": 1,
+    "beams": [{ "name": "b", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": "2 mm" },
+      "material": { "density": 2000, "youngs_modulus": 2e9 }, "elements": { "count": 6 } }],
+    "supports": [{ "beam": "b", "at": "start", "type": "pinned" }],
+    "analysis": { "end_time": 0.8 }, "output": { "report": false, "every": 0.005 } })"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  std::size_t empty = 0;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const double sag = run.value(i, "b.sag [m]");
+    empty += std::isnan(sag) ? 1 : 0;
+    EXPECT_FALSE(sag > 1) << i;
+  }
+  EXPECT_GT(empty, 0u);
+  EXPECT_LT(empty, run.rows.size() / 4);
+}
+
+TEST(Extremes, OfAModeAreThoseOfItsShape) {
+  const RunOf found = extremes_of(
+      bar, {with_elements(1), "loads=null", R"(analysis={"type": "modes", "modes": {"count": 1}})"});
+  EXPECT_GT(found.run.last("b.displacement.max [m]"), 1e-3);
+}
+
+}  // namespace
+}  // namespace nurbeam::of_extremes
