@@ -1,12 +1,15 @@
 // Frames and arches that snap: their limit loads, which force control alone does not reach.
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "fem/system/beam_system.h"
 #include "fem/system/initial_state.h"
+#include "nurbs/number_text.h"
 #include "pipelines/verification/models.h"
 #include "pipelines/verification/verify.h"
+#include "solver/algebra/sparse_lu.h"
 #include "solver/system/tangent_matrix.h"
 
 namespace nurbeam {
