@@ -152,6 +152,14 @@ std::pair<SimulationReport, std::vector<Diagnostic>> LiveRun::report() const {
   return {std::move(report), std::move(warnings)};
 }
 
+std::vector<RunExtreme> LiveRun::extremes() const {
+  const Moment moment(*this);
+  RunExtremes extremes = extremes_;
+  for (Snapshot& local : simulation_.peaks())
+    extremes.look_at(to_world(of_->built().frame, std::move(local)), recording_->names);
+  return extremes.list();
+}
+
 bool LiveRun::advance() {
   if (ended_ || interrupts_.pending()) return false;
   const Moment moment(*this);

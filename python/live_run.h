@@ -48,10 +48,7 @@ class LiveRun {
     const Moment moment(*this);
     return read(simulation_);
   }
-  std::vector<RunExtreme> extremes() const {
-    const Moment moment(*this);
-    return extremes_.list();
-  }
+  std::vector<RunExtreme> extremes() const;
   /// The present state as a snapshot of its own.
   Frame now() const;
   /// Values of histories at the present moment, by their names; NaN where there is none. Only what they need

@@ -120,6 +120,7 @@ void RunOutputs::write_series(const std::string& name, const std::vector<Snapsho
 bool RunOutputs::checkpoint_due() const { return Clock::now() >= next_restart_; }
 
 void RunOutputs::write(Checkpoint point) {
+  point.extremes = extremes_.numbers();  // of its moment: others may come before it is written
   if (!checkpoint_due()) {
     last_point_ = std::move(point);
     return;
@@ -139,7 +140,6 @@ void RunOutputs::put(Checkpoint point) {
   point.inputs = inputs_;
   point.model = model_;
   point.said_of_files = texts_of(diagnostics_);
-  point.extremes = extremes_.numbers();
   write_checkpoint(directory_ / "restart.nc", std::move(point));
   last_point_.reset();
 }

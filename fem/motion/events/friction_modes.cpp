@@ -14,7 +14,14 @@ namespace nurbeam {
 
 namespace {
 
-constexpr double rest_speed = 1e-9;  // [m/s]: slower is at rest
+// A body with friction that is slower is at rest [m/s]: it would swing on the spring of its friction by less
+// than places are known.
+double rest_speed(const BeamModel& model, int rider) {
+  const Rider& of = model.riders[rider];
+  constexpr double round_off = 1e-12;
+  return round_off * model.beam_of(of).curve.length() *
+         std::sqrt(model.stick_stiffness(of) / model.body_of(of).mass);
+}
 
 // Memory of a body that slides one way, with the spring stretched up to the bound, which follows the forces.
 FrictionMemory sliding(const BeamModel& model, int rider, double s, int way, double bound) {
@@ -149,7 +156,7 @@ std::optional<std::vector<LooseBody>> settle_friction(MeshedState& at, const std
   const std::vector<bool> blocked = blocked_joints(*at.system);
   for (const int j : riders) {
     const double s = *place(*at.system, at.state, j), rate = place_rate(*at.system, at.state, j);
-    const bool stands = at_rest || std::abs(rate) < rest_speed;
+    const bool stands = at_rest || std::abs(rate) < rest_speed(model, j);
     if (blocked[j])
       remember(j, {0, s, 0});
     else if (stands && model.riders[j].friction->can_stick() && !model.riders[j].motion)
@@ -194,7 +201,7 @@ bool settle_friction_after_contact(const MeshedState& before, MeshedState& at, d
   std::vector<int> changed = joints_with_friction(*at.system);
   std::erase_if(changed, [&](int j) {
     const double jump = place_rate(*at.system, at.state, j) - place_rate(*before.system, before.state, j);
-    return was[j] == is[j] && std::abs(jump) < rest_speed;
+    return was[j] == is[j] && std::abs(jump) < rest_speed(at.system->model(), j);
   });
   return settle_friction(at, changed, step, false).has_value();
 }
@@ -259,7 +266,7 @@ double beyond(const BeamSystem& system, const State& before, const State& state,
 }
 
 double tolerance(const BeamSystem& system, const State& before, const FrictionChange& change) {
-  if (change.turns) return rest_speed;
+  if (change.turns) return rest_speed(system.model(), change.rider);
   return 1e-9 * sliding_friction(system, before, change.rider)->bound;
 }
 

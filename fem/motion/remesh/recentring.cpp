@@ -47,7 +47,11 @@ MeshedState recentred(const BeamSystem& system, const State& state, const std::v
       next.q[angle] = of_like ? angle_in(chart, section) : 0;
       next.v[angle] = of_like ? rate(0) : element.spin(x, end);
       // A difference over 2 t, accurate to a part in 10^10.
-      const double t = 1e-5 / std::max(1e-5, x.v.lpNorm<Eigen::Infinity>());
+      const auto of_slope = [&](const auto& of) {
+        return of.template segment<3>(slope).template lpNorm<Eigen::Infinity>();
+      };
+      const double quick = std::max(of_slope(x.v), std::sqrt(1e-5 * of_slope(x.a)));
+      const double t = quick > 0 ? 1e-5 / quick : 1;
       next.a[angle] = (rate(t) - rate(-t)) / (2 * t);
     }
   }

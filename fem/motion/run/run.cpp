@@ -98,7 +98,7 @@ void Run::go_on_from(const Checkpoint& point) {
   restarted = point.restarted;
   account = EnergyAccount(point.dissipated, point.input, point.start_energy);
   steps = point.steps;
-  peaks.go_on_from(point.peaks);
+  peaks.go_on_from(point.peaks, at.system, at.state);
   report = point.report;
   report.energy_noise = energy_noise(*model);
 }
@@ -113,9 +113,8 @@ bool Run::fail_in_impact(int rider) {
   return goes_on(Failure{.kind = Failure::Kind::impact, .time = at.state.t, .rider = rider});
 }
 
-State Run::at_the_moment(const State& state, double length) const {
+State Run::at_the_moment(const BeamSystem& system, const State& state, double length) const {
   if (options.step || observer.follower) return state;
-  const BeamSystem& system = *at.system;
   if ((system.constraint_curvature(state) + system.constraint_product(state, state.a)).isZero(0))
     return state;
   State balanced = state;
@@ -129,7 +128,7 @@ double Run::shortest_time() const {
   return transient > 0 ? std::min(step, transient) : step;
 }
 
-double Run::resolution() const { return std::max(1e-12 * std::max(1.0, options.end_time), 1e-5 * step); }
+double Run::resolution() const { return std::max(1e-12 * options.end_time, 1e-5 * step); }
 
 double Run::mechanical_energy() const { return energy(*at.system, at.state).mechanical(); }
 

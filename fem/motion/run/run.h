@@ -19,7 +19,7 @@ struct Run {
   const SimulationObserver observer;
   MeshedState at = {};
   std::unique_ptr<Integrator> integrator = {};
-  double step = 1e-4;      ///< length of the next step: fixed, or suggested by error control [s]
+  double step = 0;         ///< length of the next step: fixed, or suggested by error control [s]
   double transient = 0;    ///< upper limit of steps while a damper that was met settles; 0: none [s]
   bool restarted = false;  ///< restarted, with no step since
   EnergyAccount account = {};
@@ -68,8 +68,8 @@ struct Run {
   /// Steps close constraints of places only. When error control varies the length of steps, the multipliers
   /// are second differences of the errors left in velocities: forces of the step, wrong by a tenth and more.
   /// With fixed steps, and with followers, whose derivatives are those of the step, the state is returned
-  /// unchanged.
-  State at_the_moment(const State& state, double length) const;
+  /// unchanged. `system`: of the state.
+  State at_the_moment(const BeamSystem& system, const State& state, double length) const;
 
   /// The run's part of a checkpoint; the simulation adds what it has written, and the time taken.
   Checkpoint checkpoint() const;

@@ -11,6 +11,7 @@
 #include "fem/motion/run/damper_settling.h"
 #include "fem/motion/run/run_mesh.h"
 #include "fem/motion/run/run_passing.h"
+#include "fem/motion/run/run_peaks.h"
 
 namespace nurbeam {
 
@@ -211,8 +212,8 @@ void book(Run& run, const StepPath& path, bool first, double length_before) {
   const BeamSystem& system = *run.at.system;
   if (run.options.step || !has_prescribed_motions(*run.model) || !path.within.empty())
     return run.account.add_step(system, path, first, path);
-  const State before = run.at_the_moment(path.before, length_before),
-              after = run.at_the_moment(path.after, run.last_step);
+  const State before = run.at_the_moment(system, path.before, length_before),
+              after = run.at_the_moment(system, path.after, run.last_step);
   run.account.add_step(system, path, first, {before, after});
 }
 
@@ -221,17 +222,6 @@ void note_cut(Run& run, double asked, const StepReport& taken) {
   if (!run.options.step || taken.rejected > 0 || taken.step > asked * (1 - 1e-9)) return;
   ++run.report.cut_steps;
   run.report.shortest_cut = std::min(run.report.shortest_cut, taken.step);
-}
-
-// Shows the start of a step to the observer where something is larger there than at all snapshots before.
-void show_peak(Run& run, const State& before, bool first, double length_before) {
-  if (!run.observer.peak || !run.peaks.passes_peak(*run.at.system, run.at.state, first)) return;
-  SnapshotContents contents = run.observer.contents;
-  contents.probes = false;
-  Snapshot snapshot = record_snapshot(*run.at.system, run.at_the_moment(before, length_before), {}, contents,
-                                      [](int, std::vector<ElementRecord>& elements) { elements.clear(); });
-  run.account.enter(snapshot);
-  run.observer.peak(std::move(snapshot));
 }
 
 // Applies the consequences of a landing.
@@ -284,7 +274,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   run.last_record = {at.state.t, length, static_cast<int>(run.report.newton_iterations - iterations),
                      taken.rejected};
   run.steps.push_back(run.last_record);
-  show_peak(run, before, first, step_before);
+  watch_for_peaks(run, before, first, step_before);
   book(run, {before, at.state, states_within(run, length), is_cubic(run)}, first, step_before);
   return pass(run, landing, before);
 }

@@ -15,6 +15,7 @@
 #include "fem/motion/rest/resting_place.h"
 #include "fem/motion/run/run_mesh.h"
 #include "fem/motion/run/run_passing.h"
+#include "fem/motion/run/run_peaks.h"
 #include "fem/motion/run/run_step.h"
 #include "fem/motion/run/stable_step.h"
 #include "fem/system/initial_state.h"
@@ -67,7 +68,7 @@ struct Simulation::Implementation {
       run_.at = MeshedState::drawn(run_.model);
       if (run_.observer.follower) run_.observer.follower->begins(run_.at);
       run_.report.energy_noise = energy_noise(*run_.model);
-      run_.step = run_.options.step.value_or(run_.step);
+      run_.step = run_.options.step.value_or(first_step(*run_.model, run_.options.end_time));
     }
   }
 
@@ -105,7 +106,7 @@ struct Simulation::Implementation {
         return snapshot_of(state, contents, take);
     }
     if (phase_ == Phase::motion)
-      return snapshot_of(run_.at_the_moment(run_.at.state, run_.last_step), contents, take);
+      return snapshot_of(run_.at_the_moment(*run_.at.system, run_.at.state, run_.last_step), contents, take);
     return snapshot_of(run_.at.state, contents, take);
   }
 
@@ -143,8 +144,11 @@ struct Simulation::Implementation {
     MeshedState& at = run_.at;
     at.system =
         std::make_unique<BeamSystem>(run_.model, present_plan(*at.system, at.state), at.system->held());
+    leave_former_peaks(run_);
     return phase_ != Phase::motion || run_.restart();
   }
+
+  std::vector<Snapshot> peaks() const { return snapshots_of_peaks(run_); }
 
  private:
   enum class Phase { start, rest, motion, ended };
@@ -317,6 +321,7 @@ struct Simulation::Implementation {
     if (run_.report.steps % watch == 0 && !run_.goes_on(energy_from_nowhere(slight_bending(*run_.model))))
       return end_early();
     if (time == kink && !pass_jump()) return end_early();
+    leave_former_peaks(run_);
     if (run_.observer.progress) run_.observer.progress(run_.last_record);
     if (run_.observer.checkpoint_due && run_.observer.checkpoint_due()) hand_over();
     end_at_end_time();
@@ -362,10 +367,16 @@ struct Simulation::Implementation {
     if (!is_over()) return;
     phase_ = Phase::ended;
     hand_over();
+    show_peaks();
+  }
+
+  void show_peaks() const {
+    for (Snapshot& snapshot : peaks()) run_.observer.peak(std::move(snapshot));
   }
 
   void end_early() {
     phase_ = Phase::ended;
+    show_peaks();
     if (run_.options.output_times.empty() || run_.at.state.t > last_written_) take_snapshot();
     if (run_.report.failure) look_behind(*run_.report.failure);
   }
@@ -440,6 +451,7 @@ Snapshot Simulation::present() const { return implementation_->present(implement
 Snapshot Simulation::present(const SnapshotContents& contents) const {
   return implementation_->present(contents);
 }
+std::vector<Snapshot> Simulation::peaks() const { return implementation_->peaks(); }
 SimulationReport Simulation::report() const { return implementation_->report_up_to_now(); }
 Checkpoint Simulation::checkpoint() const { return implementation_->checkpoint(); }
 

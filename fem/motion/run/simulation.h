@@ -29,6 +29,9 @@ class Simulation {
 
   const BeamSystem& system() const;
   const State& state() const;
+  /// Moments since the last change of the mesh that may have extremes of the run: see
+  /// SimulationObserver::peak, which gets those of the end.
+  std::vector<Snapshot> peaks() const;
   SimulationReport report() const;
   /// A snapshot of the state, with the records of steps since the last snapshot.
   Snapshot present() const;

@@ -26,8 +26,8 @@ struct SimulationOptions {
 /// Observer of a run; functions that are empty are not called.
 struct SimulationObserver {
   std::function<void(Snapshot)> snapshot = nullptr;  ///< at every output time
-  /// At moments between output times where something is larger than before: a snapshot without elements and
-  /// probes. Called while the step after it is taken.
+  /// For moments between output times where something is larger than before and after: snapshots without
+  /// elements and probes. Called at the end, and between steps; not in order of time.
   std::function<void(Snapshot)> peak = nullptr;
   SnapshotContents contents = {};  ///< contents of snapshots; snapshots of motions always have energies
   /// Takes the elements of a snapshot, which then has none; called before it with its time.

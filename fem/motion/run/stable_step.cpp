@@ -28,4 +28,15 @@ double longest_explicit_step(const BeamSystem& system, const State& state) {
   return reach / magnitude;
 }
 
+double first_step(const BeamModel& model, double end_time) {
+  double quickest = std::numeric_limits<double>::infinity();
+  for (const Beam& beam : model.beams) {
+    const double length = beam.curve.length();
+    if (!beam.rigid)
+      quickest = std::min(quickest, std::sqrt(beam.properties.mass_per_length * length /
+                                              beam.properties.stiffness_of_length(length)));
+  }
+  return std::isinf(quickest) ? end_time / 1e4 : std::min(quickest / 50, end_time / 100);
+}
+
 }  // namespace nurbeam

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "fem/model/build.h"
 #include "nurbs/primitives.h"
@@ -45,6 +47,69 @@ TEST(SimulationTest, StepByStepItIsTheRunAtOnce) {
     EXPECT_EQ(at_once[i].beams[0].node_positions, by_steps[i].beams[0].node_positions);
     EXPECT_EQ(at_once[i].energy.total, by_steps[i].energy.total);
   }
+}
+
+// Of a cantilever that swings a few times between its first and its last snapshot.
+struct Peaks {
+  std::vector<double> times, energies;
+  SimulationObserver observer() {
+    SimulationObserver observer;
+    observer.peak = [this](const Snapshot& s) {
+      times.push_back(s.time);
+      energies.push_back(s.energy.bending);
+      EXPECT_TRUE(s.beams[0].elements.empty());
+    };
+    return observer;
+  }
+};
+
+SimulationOptions three_hundred_steps() {
+  SimulationOptions options = twenty_steps();
+  options.end_time = 3;
+  options.output_times = {0, 3};
+  return options;
+}
+
+TEST(SimulationTest, TheLargestOfAllStepsIsShown) {
+  Peaks peaks;
+  double largest = 0, when = 0;
+  Simulation simulation(swinging_cantilever(), {}, three_hundred_steps(), peaks.observer());
+  while (simulation.advance())
+    if (const Snapshot now = simulation.present({.energy = true}); now.energy.bending > largest)
+      std::tie(largest, when) = std::pair(now.energy.bending, now.time);
+  ASSERT_FALSE(peaks.times.empty());
+  EXPECT_LT(peaks.times.size(), 10u) << "each takes longer than a step";
+  const auto best = std::ranges::max_element(peaks.energies);
+  EXPECT_NEAR(*best, largest, 1e-3 * largest);
+  EXPECT_NEAR(peaks.times[best - peaks.energies.begin()], when, 0.03);
+}
+
+TEST(SimulationTest, PeaksAreTheSameWhereverARunIsInterrupted) {
+  Peaks whole;
+  simulate(swinging_cantilever(), {}, three_hundred_steps(), whole.observer());
+  for (const int steps : {3, 40, 111, 250}) {
+    Peaks former, later;
+    Simulation first(swinging_cantilever(), {}, three_hundred_steps(), former.observer());
+    for (int i = 0; i < steps; ++i) first.advance();
+    const Checkpoint point = first.checkpoint();
+    Simulation second(swinging_cantilever(), {}, three_hundred_steps(), later.observer(), &point);
+    while (second.advance()) {
+    }
+    former.times.insert(former.times.end(), later.times.begin(), later.times.end());
+    former.energies.insert(former.energies.end(), later.energies.begin(), later.energies.end());
+    EXPECT_EQ(former.times, whole.times) << steps;
+    EXPECT_EQ(former.energies, whole.energies) << steps;
+  }
+}
+
+TEST(SimulationTest, LookingAtPeaksOnTheWayChangesNone) {
+  Peaks whole, looked_at;
+  simulate(swinging_cantilever(), {}, three_hundred_steps(), whole.observer());
+  Simulation simulation(swinging_cantilever(), {}, three_hundred_steps(), looked_at.observer());
+  std::size_t seen = 0;
+  while (simulation.advance()) seen = std::max(seen, simulation.peaks().size());
+  EXPECT_GT(seen, 0u);
+  EXPECT_EQ(looked_at.times, whole.times);
 }
 
 TEST(SimulationTest, SnapshotsHoldNoMoreThanIsAskedFor) {
