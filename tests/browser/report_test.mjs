@@ -83,6 +83,15 @@ report_test('a deflection of millimetres is seen, beside the drawing in grey, an
     assert.equal(await bottom(1), as_is);
     assert.doesNotMatch(await page.textContent('#enlarged'), /deformation/);
     assert.match(await page.textContent('#extremes'), /displacement.max2\.06\d* mm/);
+    // A thousand times larger it is as deep as it is long: "Fit" shows that too.
+    await page.$eval('#exaggerate', (slider) => {
+      slider.value = 3;
+      slider.dispatchEvent(new Event('input'));
+    });
+    await page.click('#fit');
+    const { left, right, top, bottom: lowest, height } = await picture(page);
+    assert.ok(Math.abs((lowest - top) / (right - left) - 1) < 0.15, `${right - left} by ${lowest - top} pixels`);
+    assert.ok(lowest < height - 10);
   });
 
 report_test('a long line is no stroke: its heights are shown larger, which the picture says', 'line/report.html', {}, async (page) => {

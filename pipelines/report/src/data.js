@@ -141,6 +141,18 @@ class Shapes {
       }
     }
   }
+  /** Least and greatest coordinates of the loaded frame as it is shown, relative to the origin. */
+  extent() {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    for (let beam = 0; beam < this.beam_count; ++beam) {
+      const points = this.points_start(beam), numbers = 3 * (3 * this.count(this.frame, beam) + 1);
+      for (let i = 0; i < numbers; ++i) {
+        low[i % 3] = Math.min(low[i % 3], this.floats[points + i]);
+        high[i % 3] = Math.max(high[i % 3], this.floats[points + i]);
+      }
+    }
+    return [low, high];
+  }
   displacements_start(frame, beam) {
     return this.points_start(beam) + 3 * (3 * this.count(frame, beam) + 1);
   }

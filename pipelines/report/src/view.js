@@ -242,7 +242,6 @@ export class View {
       object.matrix.copy(matrix);
       object.matrixWorldNeedsUpdate = true;
     }
-    this.view.box_points = this.box_points.map((point) => this.placed(point));
     this.show(this.frame);
     if (this.is_fitted) {
       this.fit();
@@ -341,12 +340,16 @@ export class View {
     }
     this.view.resize(box.width, box.height);
     if (this.is_fitted) {
-      this.view.fit();
+      this.fit();
     }
     this.draw();
   }
 
+  /** Shows the whole run, and the present frame where displacements are exaggerated. */
   fit() {
+    const { shapes } = this.data;
+    const extent = shapes.factor > 1 ? corners(shapes.extent(), [0, 0, 0]) : [];
+    this.view.box_points = [...this.box_points, ...extent].map((point) => this.placed(point));
     this.view.fit();
     this.is_fitted = true;
     this.redraw();
