@@ -13,9 +13,10 @@ SlidingFriction<D>::SlidingFriction(const MeshedBeams<D>& at, const Eigen::Vecto
   const Rider& sliding = at.structure.riders[rider];
   const double mass = at.structure.body_of(sliding).mass;
   const double k = at.structure.stick_stiffness(sliding);
-  body_ = {&*sliding.friction, k, Friction::stick_damping(k, mass),
-           1e-9 * mass * at.structure.gravity.norm() + 1e-15 * k * at.structure.beam_of(sliding).curve.length(),
-           sliding.s};
+  body_ = {
+      &*sliding.friction, k, Friction::stick_damping(k, mass),
+      1e-9 * mass * at.structure.gravity.norm() + 1e-18 * k * at.structure.beam_of(sliding).curve.length(),
+      sliding.s};
   multiplier_ = first_multiplier;
   place_ = at.mesh.riders[rider].place;
   const double s = at.mesh.plan.places[rider];

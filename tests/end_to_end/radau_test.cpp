@@ -73,7 +73,7 @@ TEST(RadauRun, EnergiesOfLongStepsAreThoseOfTheWay) {
                                {radau});
   ASSERT_EQ(run.code, 0) << run.messages;
   EXPECT_GT(run.last("energy.dissipated [J]"), 40);
-  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 3e-3);
+  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 4e-3) << "1e-4 of what is lost";
 }
 
 TEST(RadauRun, AFallingBeamWithABodyIsWhereShortStepsHaveIt) {

@@ -16,8 +16,8 @@ struct OfEnergy {
   enum { kinetic, axial, bending, count };
 };
 
-Eigen::Vector3d drawn_position(const Beam& beam, const MeshNode& node, const State& state) {
-  return beam.curve.position(node.place >= 0 ? state.q[node.place] : node.s);
+double place_of(const MeshNode& node, const State& state) {
+  return node.place >= 0 ? state.q[node.place] : node.s;
 }
 
 // Whether a value of an indicator is larger by more than round-off.
@@ -34,7 +34,10 @@ void PeakWatch::prepare(const BeamSystem& system, const State& state) {
     if (beam.rigid) continue;
     of.radius = beam.properties.radius_of_disk();
     of.spans = SpanShapes(beam, mesh, static_cast<int>(b), state);
-    for (const MeshNode& node : mesh.nodes[b]) of.nodes.push_back({&node, drawn_position(beam, node, state)});
+    for (const MeshNode& node : mesh.nodes[b]) {
+      const double s = place_of(node, state);
+      of.nodes.push_back({&node, beam.curve.position(s)});
+    }
     for (int i = mesh.first_span[b]; i < mesh.first_span[b + 1]; ++i)
       for (const int node : {mesh.spans[i].node_a, mesh.spans[i].node_b})
         of.nodes[node].length += (mesh.spans[i].s_b - mesh.spans[i].s_a) / 2;
@@ -50,12 +53,23 @@ void PeakWatch::prepare(const BeamSystem& system, const State& state) {
   });
 }
 
+Eigen::Vector3d PeakWatch::drawn_near(const Beam& beam, double s, Node& node) {
+  const double near = near_place(beam, s);
+  if (near != node.s) {
+    node.s = near;
+    node.drawn = beam.curve.position(near);
+    node.tangent = beam.curve.tangent(near);
+  }
+  return node.drawn + (s - near) * node.tangent;
+}
+
 template <int D>
 void PeakWatch::measure_beam(WatchedBeam& watched, const State& state, double* energies) {
   const Beam& beam = *watched.beam;
   double displacement = 0, speeds = 0;
-  for (auto& [node, drawn, length] : watched.nodes) {
-    if (node->place >= 0) drawn = drawn_position(beam, *node, state);
+  for (Node& each : watched.nodes) {
+    const MeshNode* node = each.node;
+    const Eigen::Vector3d drawn = node->place < 0 ? each.drawn : drawn_near(beam, state.q[node->place], each);
     const double *r = state.q.data() + node->r, *v = state.v.data() + node->r;
     double square = 0, speed = 0;
     for (int k = 0; k < D; ++k) {
@@ -63,7 +77,7 @@ void PeakWatch::measure_beam(WatchedBeam& watched, const State& state, double* e
       speed += v[k] * v[k];
     }
     displacement = std::max(displacement, square);
-    speeds += speed * length;
+    speeds += speed * each.length;
   }
   const ShapeExtremes of = watched.spans.extremes<D>(beam, state, watched.radius);
   for (const double each : {std::sqrt(displacement), of.tension, of.compression, of.bending, of.stress})

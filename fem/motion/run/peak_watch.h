@@ -55,7 +55,9 @@ class PeakWatch {
   struct Node {
     const MeshNode* node;
     Eigen::Vector3d drawn;
-    double length = 0;  ///< half the lengths of its spans [m]
+    Eigen::Vector3d tangent = {};  ///< of the drawing at s, where the node moves
+    double s = -1;                 ///< of `drawn`, where the node moves [m]
+    double length = 0;             ///< half the lengths of its spans [m]
   };
   struct WatchedBeam {
     const Beam* beam;
@@ -63,6 +65,7 @@ class PeakWatch {
     std::vector<Node> nodes;
     double radius;  ///< of a disk as stiff [m]
   };
+  static Eigen::Vector3d drawn_near(const Beam& beam, double s, Node& node);
   void prepare(const BeamSystem& system, const State& state);
   void measure(const BeamSystem& system, const State& state);
   template <int D>

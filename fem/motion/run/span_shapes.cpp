@@ -1,5 +1,6 @@
 #include "fem/motion/run/span_shapes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/element/lane_arithmetic.h"
@@ -42,6 +43,11 @@ NURBEAM_WITHIN Lanes8 gathered(const double* from, const std::array<int, n>& fir
 
 }  // namespace
 
+double near_place(const Beam& beam, double s) {
+  const double apart = beam.curve.length() / 4096;
+  return std::clamp(std::round(s / apart) * apart, 0.0, beam.curve.length());
+}
+
 SpanShapes::SpanShapes(const Beam& beam, const Mesh& mesh, int number, const State& state) {
   const int first = mesh.first_span[number], count = mesh.first_span[number + 1] - first;
   spans_.resize((count + lanes - 1) / lanes);
@@ -53,14 +59,14 @@ SpanShapes::SpanShapes(const Beam& beam, const Mesh& mesh, int number, const Sta
     of.place[1][i % lanes] = b.r;
     of.slope[0][i % lanes] = a.slope_right;
     of.slope[1][i % lanes] = b.slope_left;
-    draw(beam, span, i, state);
+    draw(beam, span.start(state.q), span.end(state.q), i);
     if (i >= count) of.counted.set(i % lanes, 0);
-    if (i < count && (span.place_a >= 0 || span.place_b >= 0)) moving_.push_back({&span, i});
+    if (i < count && (span.place_a >= 0 || span.place_b >= 0)) moving_.push_back({&span, i, -1, -1});
   }
 }
 
-void SpanShapes::draw(const Beam& beam, const MeshSpan& span, int number, const State& state) {
-  const double s_a = span.start(state.q), s_b = span.end(state.q), length = s_b - s_a;
+void SpanShapes::draw(const Beam& beam, double s_a, double s_b, int number) {
+  const double length = s_b - s_a;
   const Eigen::Vector3d a = beam.curve.tangent(s_a), b = beam.curve.tangent(s_b, true),
                         d = (beam.curve.position(s_b) - beam.curve.position(s_a)) / length;
   const Shape<double> drawn =
@@ -73,10 +79,23 @@ void SpanShapes::draw(const Beam& beam, const MeshSpan& span, int number, const 
   for (const int end : {0, 1}) of.curvature[end].set(lane, drawn.curvature[end]);
 }
 
+void SpanShapes::move(const Beam& beam, Moving& moving, const State& state) {
+  const double s_a = moving.span->start(state.q), s_b = moving.span->end(state.q);
+  const double near_a = near_place(beam, s_a), near_b = near_place(beam, s_b);
+  if ((near_a != moving.s_a || near_b != moving.s_b) && near_a < near_b) {
+    draw(beam, near_a, near_b, moving.number);
+    moving.s_a = near_a;
+    moving.s_b = near_b;
+  }
+  Eight& of = spans_[moving.number / lanes];
+  of.length.set(moving.number % lanes, s_b - s_a);
+  of.counted.set(moving.number % lanes, s_b - s_a);
+}
+
 template <int D>
 NURBEAM_FOR_EVERY_PROCESSOR ShapeExtremes SpanShapes::extremes(const Beam& beam, const State& state,
                                                                double radius) {
-  for (const Moving& each : moving_) draw(beam, *each.span, each.number, state);
+  for (Moving& each : moving_) move(beam, each, state);
   const double* q = state.q.data();
   Lanes8 zero;
   zero.set_all(0);

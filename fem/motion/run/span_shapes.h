@@ -9,6 +9,10 @@
 
 namespace nurbeam {
 
+/// One of 4096 places along a beam, the one next to s [m]: the drawing beside places that move is looked up
+/// there, which takes no time until they come to the next one.
+double near_place(const Beam& beam, double s);
+
 /// What the nodes of a beam's spans tell of their shape: strain is Green's mean strain of the cubic through
 /// the nodal values, less that of the drawing; curvature likewise, its larger at both ends.
 struct ShapeExtremes {
@@ -40,8 +44,10 @@ class SpanShapes {
   struct Moving {
     const MeshSpan* span;
     int number;
+    double s_a, s_b;  ///< where its shape was found in the drawing [m]
   };
-  void draw(const Beam& beam, const MeshSpan& span, int number, const State& state);
+  void draw(const Beam& beam, double s_a, double s_b, int number);
+  void move(const Beam& beam, Moving& moving, const State& state);
 
   std::vector<Eight> spans_;
   std::vector<Moving> moving_;
