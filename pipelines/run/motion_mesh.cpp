@@ -17,7 +17,7 @@ namespace nurbeam {
 namespace {
 
 constexpr int places_of_beam = 33;
-constexpr double error_over_difference = 1.25;
+constexpr double error_over_difference = 1.5;
 
 /// Where the looked at beams are at the output times of a run: place after place, beam after beam [m].
 using Course = std::vector<std::vector<Eigen::Vector3d>>;
@@ -43,22 +43,31 @@ class MotionMesh {
     std::optional<Course> coarse = course();
     double before = std::numeric_limits<double>::infinity();
     for (int i = 0; coarse && i < most_doublings; ++i) {
+      const BeamModel model = built_.model;
+      const std::vector<SlopeDecision> slopes = built_.slopes;
       if (!double_elements()) return {unmet("at most " + std::to_string(most_elements) + " elements")};
       std::optional<Course> fine = course();
-      if (!fine) break;
-      last_ = difference(*coarse, *fine);
-      if (last_.value <= 1) return {met()};
+      if (fine) last_ = difference(*coarse, *fine);
+      if (!fine || last_.value <= 1) {
+        built_.model = model;
+        built_.slopes = slopes;
+        return ended(fine ? met() : unmet("a run that does not come to its end"));
+      }
       // Steps, or a motion that is not determined, keep runs apart: more elements do not bring them together.
       constexpr double falls = 0.71;
       if (i > 1 && last_.value > falls * before) return {apart()};
       before = last_.value;
       coarse = std::move(fine);
     }
-    if (interrupted_ && interrupted_()) return {};
-    return {coarse ? unmet("ten doublings") : unmet("a run that does not come to its end")};
+    return ended(unmet(coarse ? "ten doublings" : "a run that does not come to its end"));
   }
 
  private:
+  // Of a search that was interrupted there is nothing to say.
+  std::vector<Diagnostic> ended(Diagnostic found) const {
+    return interrupted_ && interrupted_() ? std::vector<Diagnostic>{} : std::vector{std::move(found)};
+  }
+
   std::optional<Course> course() const {
     std::vector<ProbePlace> places;
     for (const int b : beams_)
@@ -121,8 +130,8 @@ class MotionMesh {
 
   Diagnostic met() const {
     return {Severity::note, path(),
-            "over the motion " + std::to_string(elements()) + " elements differ from " +
-                std::to_string(elements() / 2) + " by " + found()};
+            "over the motion " + std::to_string(elements()) + " elements differ from twice as many by " +
+                found()};
   }
   Diagnostic apart() const {
     return {Severity::warning, path(),

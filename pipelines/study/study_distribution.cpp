@@ -149,7 +149,10 @@ void read_study_distribution(const Json& whole, const Json& json, Dimension dime
 }
 
 bool stands_alone_in(const Json& distribution, const std::string& variable) {
-  if (distribution.is_string()) return distribution.get<std::string>() == variable;
+  if (distribution.is_string()) {
+    const auto text = distribution.get<std::string>();
+    return text == variable || text == "'" + variable + "'";
+  }
   return distribution.is_structured() &&
          std::any_of(distribution.begin(), distribution.end(),
                      [&](const Json& part) { return stands_alone_in(part, variable); });
