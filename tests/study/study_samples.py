@@ -166,8 +166,18 @@ def the_arm_is_as_strong_as_asked():
     assert "doubts" not in answer, answer["doubts"]
 
 
+def grading_pays_with_three_elements():
+    run("grading")
+    error = {(round(float(row["log2_d"])), round(float(row["share"]), 2)): float(row["error [mm]"]) for row in rows("grading")}
+    best = {d: min((error[d, share], share) for each, share in error if each == d) for d in (-1, 0, 2)}
+    print("graded pendulum:", {d: (round(error[d, 0], 2), *best[d]) for d in best})
+    assert best[-1][0] < 0.5 * error[-1, 0] and best[-1][1] == 0.45
+    assert 0.6 < best[0][0] / error[0, 0] < 0.7 and best[2][0] > 0.8 * error[2, 0]
+
+
 shutil.rmtree(scratch, ignore_errors=True)
 the_arm_is_as_strong_as_asked()
+grading_pays_with_three_elements()
 the_rail_is_as_fast_as_the_cycloid()
 the_rail_is_found_in_a_tenth_of_the_runs_along_derivatives()
 the_falling_beam_has_the_derivatives_that_differences_tend_to()
