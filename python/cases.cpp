@@ -59,8 +59,8 @@ Built build(const std::string& text, const std::filesystem::path& file) {
   return result;
 }
 
-// Gives beams the elements that a tolerance over the motion asks for: (findings). Functions of the model are not
-// in the runs that look for them.
+// Gives beams the elements that a tolerance over the motion asks for: (findings). Functions of the model are
+// not in the runs that look for them.
 PlainFindings divide_for_motion_of(BuiltCase& c, bool has_functions) {
   Interrupts interrupts;
   std::vector<Diagnostic> found;
