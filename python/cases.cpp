@@ -7,6 +7,7 @@
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_schema.h"
 #include "pipelines/model/model_summary.h"
+#include "pipelines/run/motion_mesh.h"
 #include "python/bindings.h"
 #include "python/built_case.h"
 #include "python/interrupts.h"
@@ -58,6 +59,22 @@ Built build(const std::string& text, const std::filesystem::path& file) {
   return result;
 }
 
+// Gives beams the elements that a tolerance over the motion asks for: (findings). Functions of the model are
+// not in the runs that look for them.
+PlainFindings divide_for_motion_of(BuiltCase& c, bool has_functions) {
+  Interrupts interrupts;
+  std::vector<Diagnostic> found;
+  {
+    const WithoutLock others_go_on;
+    found = divide_for_motion(c.case_file, *c.report.value, [&] { return interrupts.pending(); });
+  }
+  interrupts.rethrow();
+  if (has_functions && !found.empty())
+    found.push_back({Severity::warning, c.case_file.path.string() + ": beams",
+                     "the elements are those of the motion without the functions of the model"});
+  return plain(found);
+}
+
 }  // namespace
 
 void bind_cases(py::module_& module) {
@@ -70,6 +87,7 @@ void bind_cases(py::module_& module) {
       .def_property_readonly("analysis",
                              [](const BuiltCase& c) { return name_of(c.case_file.analysis.type); })
       .def_property_readonly("end_time", [](const BuiltCase& c) { return c.case_file.analysis.end_time; })
+      .def("divide_for_motion", &divide_for_motion_of, py::arg("has_functions"))
       .def("summary", [](const BuiltCase& c) { return model_summary(c.case_file, c.built()); });
 }
 

@@ -265,6 +265,9 @@ void check_keys_of_motions(const Json& json, const CaseAnalysis& analysis, Findi
   for_each_item(json, "beams", "", [&](const Json& beam, const std::string& path) {
     if (has(part(beam, "initial"), "velocity"))
       findings.warn(child(path, "initial.velocity"), "is of the start of a motion: nothing moves " + here);
+    if (text(part(beam, "elements"), "over") == "motion")
+      findings.warn(child(path, "elements.over"),
+                    "is of a motion: the tolerance is that of the state " + here);
   });
 }
 

@@ -34,10 +34,11 @@ RationalCubic pendulum_axis(PendulumArc arc) {
   return to_bezier(e, {1, 1.08621103, 0.98905339, 1}, radius * 2 * half_angle);
 }
 
-BeamProperties pendulum_section() {
+BeamProperties pendulum_section(double thinner) {
   constexpr double section_radius = 0.02, density = 6000, E = 2e6,
                    area = std::numbers::pi * section_radius * section_radius;
-  BeamProperties section{E * area, E * area * section_radius * section_radius / 4, density * area};
+  BeamProperties section{E * area * thinner * thinner, E * area * section_radius * section_radius / 4,
+                         density * area};
   section.axial_strain = AxialStrain::pointwise;  // as in [S]
   return section;
 }
@@ -47,7 +48,7 @@ BeamModel pendulum_model(const PendulumMesh& mesh) {
   const ReferenceCurve drawn({axis}, 2);
   Beam beam{.name = "arc",
             .curve = ReferenceCurve({axis}, 2, mesh.metric ? Metric::arc_length : Metric::label),
-            .properties = pendulum_section(),
+            .properties = pendulum_section(mesh.thinner),
             .weights = mesh.ancf ? WeightRule::ones : WeightRule::material,
             .home = home_nodes({0, drawn.length()}, {mesh.elements}, mesh.grading)};
   beam.properties.curvature = mesh.curvature;

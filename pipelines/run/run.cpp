@@ -29,6 +29,7 @@
 #include "pipelines/run/closing_lines.h"
 #include "pipelines/run/kept_memory.h"
 #include "pipelines/run/mode_run.h"
+#include "pipelines/run/motion_mesh.h"
 #include "pipelines/run/progress.h"
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
@@ -301,7 +302,10 @@ int run_case(const CaseFile& c, const RunOptions& options) {
              << ": does not exist: there is no run to resume; run without --resume\n";
     return exit_bad_input;
   }
-  const BuildReport report = build_model(c);
+  BuildReport report = build_model(c);
+  if (report.value)
+    for (Diagnostic& found : divide_for_motion(c, *report.value, options.interrupted))
+      report.diagnostics.push_back(std::move(found));
   print_diagnostics(messages, report.diagnostics);
   if (!report.value) return exit_bad_input;
   return run_model(c, report, options, seconds_since(start) - report.value->import_seconds);

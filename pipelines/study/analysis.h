@@ -60,6 +60,19 @@ ReliabilityResult failure_probability(const StudyFile& study, const StudyReliabi
                                       const StudyEvaluation& evaluate,
                                       const StudyDerivatives& derivatives = {});
 
+/// The reliability index of a probability of failure, -Phi^-1(probability) [-].
+double index_of(double probability);
+
+/// What is known of a probability at an optimum that is subject to it.
+struct ProbabilityResult {
+  std::string text;        ///< of the constraint
+  double least_index = 0;  ///< that it asks for
+  ReliabilityResult form;  ///< FORM's
+  /// The derivatives of the reliability index by the design variables: (dg/dd) / |dg/du| at the design point.
+  std::vector<double> index_gradient = {};
+  std::optional<ReliabilityResult> check = {};  ///< by simulation, where the study asks for one
+};
+
 struct OptimumResult {
   /// One point, or those of the Pareto front, the best one in the first objective first.
   StudyPoints points;
@@ -69,11 +82,21 @@ struct OptimumResult {
   bool cut_off = false;  ///< the search ended because it had no more variants
   /// Where and why a search came to no end that holds its constraints; empty where it did.
   std::string not_converged = {};
+  std::vector<ProbabilityResult> probabilities = {};  ///< that it is subject to, in their order
+  std::vector<std::string> doubts = {};               ///< why a probability may be greater than is asked
 };
 /// With derivatives where they are given. Throws std::runtime_error where no variant holds the
 /// constraints.
 OptimumResult find_optimum(const StudyFile& study, const StudyOptimum& optimum,
                            const StudyEvaluation& evaluate, const StudyDerivatives& derivatives = {});
+
+/// The same subject to probabilities: variables with a range are the design, those with a distribution are
+/// random, and stand at their nominal values in objectives and other constraints. Each probability is held by
+/// FORM's performance measure: where the limit state is least at the distance from the origin of standard
+/// space that is asked for, it must not fail.
+OptimumResult find_reliable_optimum(const StudyFile& study, const StudyOptimum& optimum,
+                                    const StudyEvaluation& evaluate,
+                                    const StudyDerivatives& derivatives = {});
 
 /// What a calibration found.
 struct CalibrationResult {

@@ -30,14 +30,6 @@ OT::Distribution whole_distribution(const StudyDistribution& d) {
   return {};
 }
 
-OT::Distribution distribution_of(const StudyDistribution& d) {
-  const OT::Distribution whole = whole_distribution(d);
-  if (d.lower && d.upper) return OT::TruncatedDistribution(whole, *d.lower, *d.upper);
-  if (d.lower) return OT::TruncatedDistribution(whole, *d.lower, OT::TruncatedDistribution::LOWER);
-  if (d.upper) return OT::TruncatedDistribution(whole, *d.upper, OT::TruncatedDistribution::UPPER);
-  return whole;
-}
-
 class VariantsFunction : public OT::EvaluationImplementation {
  public:
   using Transform =
@@ -95,19 +87,29 @@ class VariantsGradient : public OT::GradientImplementation {
 
 void silence_openturns() { OT::Log::Show(OT::Log::NONE); }
 
+OT::Distribution law_of(const StudyDistribution& d) {
+  const OT::Distribution whole = whole_distribution(d);
+  if (d.lower && d.upper) return OT::TruncatedDistribution(whole, *d.lower, *d.upper);
+  if (d.lower) return OT::TruncatedDistribution(whole, *d.lower, OT::TruncatedDistribution::LOWER);
+  if (d.upper) return OT::TruncatedDistribution(whole, *d.upper, OT::TruncatedDistribution::UPPER);
+  return whole;
+}
+
 OT::Distribution joint_distribution(const StudyFile& study) {
   OT::ComposedDistribution::DistributionCollection marginals;
   for (const std::size_t i : study.free_variables()) {
-    OT::Distribution marginal = distribution_of(study.variables[i].distribution);
+    OT::Distribution marginal = law_of(study.variables[i].distribution);
     marginal.setDescription({study.variables[i].name});
     marginals.add(marginal);
   }
   return OT::ComposedDistribution(marginals);
 }
 
+double index_of(double probability) { return -OT::DistFunc::qNormal(probability); }
+
 std::optional<double> mean_of(const StudyDistribution& distribution) {
   try {
-    const double mean = distribution_of(distribution).getMean()[0];
+    const double mean = law_of(distribution).getMean()[0];
     return std::isfinite(mean) ? std::optional(mean) : std::nullopt;
   } catch (const OT::Exception&) {
     return std::nullopt;

@@ -6,6 +6,9 @@
 /// Private to what uses OpenTURNS.
 namespace nurbeam {
 
+/// The distribution, cut off at its ends. Throws OT::Exception where it is none.
+OT::Distribution law_of(const StudyDistribution& distribution);
+
 /// The free variables together, independent of each other.
 OT::Distribution joint_distribution(const StudyFile& study);
 

@@ -69,20 +69,25 @@ bool Goal::holds(const std::vector<double>& quantities, const std::vector<double
   return std::all_of(all.begin(), all.end(), is_satisfied);
 }
 
+std::pair<double, double> sides_of(const StudyFile& study, const StudyOptimum::Constraint& constraint,
+                                   const std::vector<double>& quantities, const std::vector<double>& point) {
+  const std::vector<double> variables = all_values(study, point);
+  const ExpressionScope scope{.value = [&](const std::string& name) -> ExpressionValue {
+    for (std::size_t i = 0; i < study.variables.size(); ++i)
+      if (study.variables[i].name == name) return variables[i];
+    return quantities[quantity_index(study, name)];
+  }};
+  return {constraint.greater.number(scope), constraint.lesser.number(scope)};
+}
+
 std::vector<Goal::Sides> Goal::sides(const std::vector<double>& quantities,
                                      const std::vector<double>& point) const {
-  const std::vector<double> variables = all_values(study_, point);
-  const ExpressionScope scope{.value = [&](const std::string& name) -> ExpressionValue {
-    for (std::size_t i = 0; i < study_.variables.size(); ++i)
-      if (study_.variables[i].name == name) return variables[i];
-    return quantities[quantity_index(study_, name)];
-  }};
   std::vector<Sides> sides;
   for (std::size_t k = 0; k < constraints_.size(); ++k)
     if (quantities.empty() && !of_variables_[k])
       sides.emplace_back(unknown, unknown);
     else
-      sides.emplace_back(constraints_[k].greater.number(scope), constraints_[k].lesser.number(scope));
+      sides.push_back(sides_of(study_, constraints_[k], quantities, point));
   return sides;
 }
 

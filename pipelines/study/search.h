@@ -13,6 +13,10 @@ namespace nurbeam {
 /// Whether a constraint with this margin holds.
 inline bool is_satisfied(double margin) { return margin >= -1e-9; }
 
+/// Of a constraint at a variant: what must be greater, and the other.
+std::pair<double, double> sides_of(const StudyFile& study, const StudyOptimum::Constraint& constraint,
+                                   const std::vector<double>& quantities, const std::vector<double>& point);
+
 /// What a search minimises and holds, of one variant: what it is subject to and, by the methods that know
 /// constraints, those that a variant must hold to run.
 class Goal {

@@ -201,6 +201,8 @@ void warn_of_answer(const StudyResult& result, const StudyOptions& options, std:
   const auto* optimum = std::get_if<OptimumResult>(&result.answer);
   if (optimum && !optimum->not_converged.empty())
     err << "warning: " << options.file.string() << ": optimise: " << optimum->not_converged << "\n";
+  for (std::size_t i = 0; optimum && i < optimum->doubts.size(); ++i)
+    err << "warning: " << options.file.string() << ": optimise.subject_to: " << optimum->doubts[i] << "\n";
   const auto* calibrated = std::get_if<CalibrationResult>(&result.answer);
   for (std::size_t i = 0; calibrated && i < calibrated->active.size(); ++i)
     err << "warning: " << options.file.string() << ": calibrate: the estimate lies at the edge of \""

@@ -59,6 +59,7 @@ class StudyReader : StudyPartReader {
                   [&](const Json& item, const std::string& path) { read_quantity(item, path); });
     check_derived();
     read_study_task(json_, study_, findings_);
+    check_formulas(study_, findings_);
     check_effects();
     study_.seed = static_cast<unsigned>(number(json_, "seed", 1));
     study_.time_limit = optional_number(json_, "time_limit");
@@ -70,7 +71,7 @@ class StudyReader : StudyPartReader {
     variable.target = read_target(json, path);
     if (variable.target && !json_.contains("case"))
       findings_.error(path, "changes a case, but the study has no \"case\"; name one");
-    const Dimension dimension = dimension_of(variable, path);
+    const Dimension dimension = variable.target ? dimension_of(variable, path) : dimension_of_use(variable);
     variable.unit = default_unit(dimension);
     if (has(json, "value")) variable.derived = parsed_or_zero(text(json, "value"), child(path, "value"));
     if (has(json, "range")) {
@@ -78,45 +79,25 @@ class StudyReader : StudyPartReader {
       check_increasing(variable.distribution.parameters, child(path, "range"));
     }
     if (has(json, "distribution"))
-      read_distribution(json["distribution"], dimension, child(path, "distribution"), variable);
+      read_study_distribution(json_, json["distribution"], dimension, variable, study_, findings_);
     if (has(json, "nominal"))
       variable.nominal = measured(json["nominal"], dimension, child(path, "nominal")).value_or(0);
     else if (!variable.derived && !findings_.has_errors())
       variable.nominal = middle_of(variable.distribution);
-    if (!variable.derived && !findings_.has_errors()) check_ends(variable);
+    if (!variable.derived && !findings_.has_errors()) check_ends(variable, findings_);
     study_.variables.push_back(std::move(variable));
   }
 
-  // Something of the distribution must lie between where it is cut off, and the nominal value within.
-  void check_ends(const StudyVariable& variable) {
-    using Law = StudyDistribution::Kind;
-    constexpr double none = std::numeric_limits<double>::infinity();
-    const StudyDistribution& d = variable.distribution;
-    const std::vector<double>& p = d.parameters;
-    if (p.size() < 2) return;
-    double from = -none, to = none;
-    if (d.kind == Law::uniform || d.kind == Law::triangular) from = p.front(), to = p.back();
-    if (d.kind == Law::lognormal || d.kind == Law::weibull) from = 0;
-    const double lower = std::max(d.lower.value_or(-none), from),
-                 upper = std::min(d.upper.value_or(none), to);
-    if (!(lower < upper) || !mean_of(d))
-      return findings_.error(child(variable.path, "distribution"),
-                             "has nothing between \"lower\" and \"upper\"");
-    if (variable.nominal < lower || variable.nominal > upper)
-      findings_.error(child(variable.path, "nominal"), "is " + text_of(variable.nominal, all_digits) +
-                                                           ", outside of " + text_of(lower, all_digits) +
-                                                           " to " + text_of(upper, all_digits));
-  }
-
-  // The mean of what is left within the ends.
-  static double middle_of(const StudyDistribution& d) {
-    using Law = StudyDistribution::Kind;
-    const std::vector<double>& p = d.parameters;
-    if (p.size() < 2) return 0;
-    double mean = p[0];
-    if (d.kind == Law::uniform) mean = (p[0] + p[1]) / 2;
-    if (d.kind == Law::triangular) mean = (p[0] + p[1] + p[2]) / 3;
-    return d.lower || d.upper ? mean_of(d).value_or(mean) : mean;
+  // Of a design variable that stands as a parameter of a distribution: that of what is so distributed.
+  Dimension dimension_of_use(const StudyVariable& design) {
+    for (const Json& item : part(json_, "variables")) {
+      if (!item.is_object() || !has(item, "distribution")) continue;
+      StudyVariable random;
+      random.target = read_target(item, "");
+      if (random.target && stands_alone_in(item["distribution"], design.name))
+        return dimension_of(random, design.path);
+    }
+    return Dimension::number;
   }
 
   std::optional<StudyTarget> read_target(const Json& json, const std::string& path) {
@@ -173,39 +154,6 @@ class StudyReader : StudyPartReader {
     else
       findings_.error(where, "is [0, 0, 0]; give a direction");
     return transform;
-  }
-
-  void read_distribution(const Json& json, Dimension dimension, const std::string& path,
-                         StudyVariable& variable) {
-    using Law = StudyDistribution::Kind;
-    StudyDistribution& d = variable.distribution;
-    for (const auto& [name, kind] : {std::pair{"uniform", Law::uniform},
-                                     {"normal", Law::normal},
-                                     {"lognormal", Law::lognormal},
-                                     {"triangular", Law::triangular},
-                                     {"gumbel", Law::gumbel},
-                                     {"weibull", Law::weibull}}) {
-      if (!has(json, name)) continue;
-      d.kind = kind;
-      const std::string where = child(path, name);
-      if (json[name].is_array()) {
-        d.parameters = all_measured(json[name], dimension, where);
-        check_increasing(d.parameters, where);
-        continue;
-      }
-      const Json& moments = json[name];
-      if (!has(moments, "mean") || !has(moments, "sd")) continue;
-      const double mean = measured(moments["mean"], dimension, child(where, "mean")).value_or(0);
-      const double sd = measured(moments["sd"], dimension, child(where, "sd")).value_or(0);
-      d.parameters = {mean, sd};
-      if (!(sd > 0))
-        findings_.error(child(where, "sd"), "is " + text_of(sd, all_digits) + "; must be greater than 0");
-      if ((kind == Law::lognormal || kind == Law::weibull) && !(mean > 0))
-        findings_.error(child(where, "mean"), "is " + text_of(mean, all_digits) + "; must be greater than 0");
-    }
-    if (has(json, "lower")) d.lower = measured(json["lower"], dimension, child(path, "lower"));
-    if (has(json, "upper")) d.upper = measured(json["upper"], dimension, child(path, "upper"));
-    if (d.lower && d.upper) check_increasing({*d.lower, *d.upper}, child(path, "upper"));
   }
 
   void check_variable_names() {
@@ -271,15 +219,20 @@ class StudyReader : StudyPartReader {
     const auto collect = [&](const Expression& expression) {
       for (std::string& name : expression.names()) named.insert(std::move(name));
     };
-    for (const StudyVariable& variable : study_.variables)
+    for (const StudyVariable& variable : study_.variables) {
       if (variable.derived) collect(*variable.derived);
+      for (const auto& formula : variable.distribution.formulas) collect(formula.value);
+    }
     for (const Expression& constraint : study_.constraints) collect(constraint);
     for (const StudyQuantity& quantity : study_.quantities) collect(quantity.value);
-    if (const auto* optimum = std::get_if<StudyOptimum>(&study_.task))
-      for (const StudyOptimum::Constraint& constraint : optimum->constraints) {
-        collect(constraint.greater);
-        collect(constraint.lesser);
-      }
+    const auto collect_sides = [&](const StudyOptimum::Constraint& constraint) {
+      collect(constraint.greater);
+      collect(constraint.lesser);
+    };
+    if (const auto* optimum = std::get_if<StudyOptimum>(&study_.task)) {
+      for (const StudyOptimum::Constraint& constraint : optimum->constraints) collect_sides(constraint);
+      for (const auto& probability : optimum->probabilities) collect_sides(probability.fails);
+    }
     for (const StudyVariable& variable : study_.variables)
       if (!variable.target && !variable.derived && !variable.name.empty() && !named.contains(variable.name))
         findings_.warn(variable.path,
@@ -338,6 +291,11 @@ std::vector<double> StudyFile::nominal() const {
   std::vector<double> values;
   for (const std::size_t i : free_variables()) values.push_back(variables[i].nominal);
   return values;
+}
+
+bool StudyFile::has_random_design() const {
+  const auto* optimum = std::get_if<StudyOptimum>(&task);
+  return optimum && !optimum->probabilities.empty();
 }
 
 StudyFileReport read_study_file(const std::filesystem::path& file) {

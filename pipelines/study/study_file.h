@@ -19,6 +19,15 @@ struct StudyDistribution {
   /// uniform: lower, upper; triangular: lower, mode, upper; else mean and standard deviation.
   std::vector<double> parameters;
   std::optional<double> lower = {}, upper = {};  ///< where it is cut off
+  /// What design variables make: of the parameter at this place; behind those stand `lower` and `upper`.
+  struct Formula {
+    std::size_t place = 0;
+    Expression value;
+  };
+  std::vector<Formula> formulas = {};  ///< the numbers above are theirs at the nominal design
+
+  /// With the formulas worked out for a design; it has none left.
+  StudyDistribution at(const ExpressionScope& design) const;
 };
 
 /// Numbers of the case file, all of which get the variable's value.
@@ -76,6 +85,7 @@ struct StudyVariable {
   std::optional<StudyTarget> target = {};  ///< none: it only stands in expressions
   StudyDistribution distribution = {};
   double nominal = 0;                      ///< where a search begins
+  bool is_random = false;                  ///< has a distribution, no range
   std::optional<Expression> derived = {};  ///< of other variables, instead of a distribution
 };
 
@@ -127,10 +137,18 @@ struct StudyOptimum {
     Expression greater, lesser;  ///< of quantities and variables
     std::string text;            ///< as it is written
   };
+  /// What is to be improbable: that `fails.greater` is above `fails.lesser`.
+  struct Probability {
+    Constraint fails;
+    double least_index = 0;  ///< of reliability, b: the probability is to be Phi(-b) at most
+  };
   std::vector<Objective> objectives;  ///< several: a Pareto front, by the genetic method
   std::vector<Constraint> constraints = {};
-  int evaluations = 100;    ///< at most
-  double tolerance = 1e-4;  ///< of the variables, as a part of their ranges
+  std::vector<Probability> probabilities =
+      {};                                      ///< where there are some, variables with ranges are the design
+  std::optional<StudyReliability> check = {};  ///< by simulation, of these probabilities at the optimum
+  int evaluations = 100;                       ///< at most
+  double tolerance = 1e-4;                     ///< of the variables, as a part of their ranges
 };
 
 /// The values of the variables at which quantities are as they were measured.
@@ -179,6 +197,8 @@ struct StudyFile {
   std::vector<std::size_t> free_variables() const;
   /// Their nominal values.
   std::vector<double> nominal() const;
+  /// Whether it searches a design of which probabilities are asked.
+  bool has_random_design() const;
 };
 
 /// A study file and everything that is wrong with it; `value` is empty when any diagnostic is an error.

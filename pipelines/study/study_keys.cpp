@@ -20,8 +20,12 @@ Shape pair_of(Shape item) {
 Shape axis_name() { return choice({"x", "y", "z"}); }
 
 Shape distribution() {
-  const Shape moments =
-      object({{"mean", measured(), "mean", required}, {"sd", measured(), "standard deviation", required}});
+  const Shape moments = object(
+      {{"mean", measured(),
+        "mean; as all numbers of a distribution it may be an expression of earlier variables with a range, "
+        "where optimise is subject to a probability",
+        required},
+       {"sd", measured(), "standard deviation", required}});
   Shape three = array(measured(), 3);
   three.most_items = 3;
   return object({{"uniform", pair_of(measured()), "[least, greatest]"},
@@ -142,13 +146,26 @@ Shape reliability() {
       {{{"above", "below"}, required}});
 }
 
+Shape check_of_probabilities() {
+  return object({{"method", choice({"importance_sampling", "monte_carlo"}),
+                  "importance_sampling, about the design point of FORM, when omitted"},
+                 {"count", integer({.lower = 10, .upper = 1e8}),
+                  "most variants for each probability; 1000 when omitted"},
+                 {"coefficient_of_variation", quantity(Dimension::number, {.lower = 0, .upper = 1}),
+                  "it ends where that of the probability is below this; when omitted at the count"}});
+}
+
 Shape optimum() {
   return object({{"minimise", either(name(), array(name(), 1)), "a quantity, or several for a Pareto front"},
                  {"maximise", either(name(), array(name(), 1)), "likewise"},
                  {"subject_to", array(any_text(), 1),
-                  "expressions over quantities and variables that must hold, such as \"speed <= 10\""},
+                  "expressions over quantities and variables that must hold, such as \"speed <= 10\", and "
+                  "\"probability(stress > 2.5e8) <= 1e-3\" or \"reliability_index(stress > 2.5e8) >= 3\": "
+                  "then variables with a range are searched, those with a distribution are random"},
+                 {"check", check_of_probabilities(),
+                  "a simulation of these probabilities at the optimum; none when omitted"},
                  {"method", choice({"cobyla", "nelder_mead", "gradient", "genetic"}),
-                  "cobyla when omitted; genetic for several objectives"},
+                  "cobyla when omitted; genetic for several objectives, gradient with a probability"},
                  {"derivatives", derivatives(), about_derivatives},
                  {"evaluations", integer({.lower = 1, .upper = 1e6}),
                   "most variants, of genetic 16 at least; 100 when omitted"},

@@ -85,6 +85,27 @@ Json answer_json(const StudyFile& study, const ReliabilityResult& result) {
   return json;
 }
 
+// What a probability is, and how it changes with the design. An index that is not found is null.
+Json to_json(const StudyFile& study, const ProbabilityResult& result) {
+  Json json = {{"constraint", result.text}, {"least_reliability_index", result.least_index}};
+  if (result.form.reliability_index) json.update(answer_json(study, result.form));
+  json.erase("not_done");
+  json.erase("importance");
+  std::size_t random = 0, design = 0;
+  for (const std::size_t i : study.free_variables()) {
+    const StudyVariable& variable = study.variables[i];
+    if (variable.is_random && random < result.form.importance.size())
+      json["importance"][variable.name] = result.form.importance[random++];
+    if (!variable.is_random && design < result.index_gradient.size())
+      json["reliability_index_gradient"][variable.name] = result.index_gradient[design++];
+  }
+  if (!result.check) return json;
+  json["check"] = {{"probability", result.check->probability}, {"not_done", result.check->not_done}};
+  if (result.check->coefficient_of_variation)
+    json["check"]["coefficient_of_variation"] = *result.check->coefficient_of_variation;
+  return json;
+}
+
 Json answer_json(const StudyFile& study, const OptimumResult& result) {
   Json json = {{"optima", Json::array()}};
   for (std::size_t i = 0; i < result.points.size(); ++i) {
@@ -93,6 +114,9 @@ Json answer_json(const StudyFile& study, const OptimumResult& result) {
       quantities[study.quantities[k].name] = result.quantities[i][k];
     json["optima"].push_back({{"variables", named(study, result.points[i])}, {"quantities", quantities}});
   }
+  for (const ProbabilityResult& probability : result.probabilities)
+    json["probabilities"].push_back(to_json(study, probability));
+  if (!result.doubts.empty()) json["doubts"] = result.doubts;
   if (result.cut_off) json["evaluations_used_up"] = true;
   if (!result.not_converged.empty()) json["not_converged"] = result.not_converged;
   for (const double best : result.history)
@@ -138,103 +162,6 @@ Json to_json(const StudyFile& study, const SurrogateResult& surrogate) {
     json["sobol_indices"][study.variables[free[i]].name] = {{"first_order", surrogate.first_order[i]},
                                                             {"total_order", surrogate.total_order[i]}};
   return json;
-}
-
-void tell(std::ostream&, const StudyFile&, std::monostate) {}
-
-void tell(std::ostream& out, const StudyFile& study, const GradientResult& result) {
-  const std::vector<std::size_t> free = study.free_variables();
-  for (const Variant& variant : result.variants)
-    for (std::size_t k = 0; k < variant.gradient.size(); ++k) {
-      const StudyQuantity& quantity = study.quantities[k];
-      out << quantity.name << " = " << text_of(variant.quantities[k], 8) << " " << quantity.unit << "\n";
-      for (std::size_t i = 0; i < free.size(); ++i)
-        out << "  by " << study.variables[free[i]].name << "  " << text_of(variant.gradient[k][i], 8) << "\n";
-    }
-}
-
-void tell(std::ostream& out, const StudyFile& study, const SensitivityResult& result) {
-  const std::vector<std::size_t> free = study.free_variables();
-  for (const SobolIndices& indices : result.indices) {
-    out << "Sobol indices of " << indices.quantity << "\n";
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      const auto& first = indices.first_order[i];
-      const auto& total = indices.total_order[i];
-      out << "  " << study.variables[free[i]].name << "  first order " << text_of(first.value, 3) << " ("
-          << text_of(first.lower, 3) << " to " << text_of(first.upper, 3) << ")  total "
-          << text_of(total.value, 3) << " (" << text_of(total.lower, 3) << " to " << text_of(total.upper, 3)
-          << ")\n";
-    }
-  }
-  if (result.rows_left_out > 0)
-    out << result.rows_left_out << " rows of the sample were left out: a variant of theirs is not done\n";
-}
-
-void tell(std::ostream& out, const StudyFile& study, const ReliabilityResult& result) {
-  out << "probability " << text_of(result.probability, 6);
-  if (result.coefficient_of_variation)
-    out << " (coefficient of variation " << text_of(*result.coefficient_of_variation, 3) << ")";
-  if (result.reliability_index) out << "  reliability index " << text_of(*result.reliability_index, 8);
-  out << "\n";
-  if (result.not_done > 0)
-    out << "  " << result.not_done
-        << " variants are not done (see study.csv): they count as ones that do not fail\n";
-  const std::vector<std::size_t> free = study.free_variables();
-  for (std::size_t i = 0; i < result.design_point.size(); ++i)
-    out << "  " << study.variables[free[i]].name << " = " << text_of(result.design_point[i], 6)
-        << " at the design point"
-        << (result.importance.empty() ? "" : ", importance " + text_of(result.importance[i], 3)) << "\n";
-}
-
-// After how many variants a search had come as near to the value it found in the end.
-std::size_t variants_until(const std::vector<double>& history, double part) {
-  const double best = history.back();
-  const auto near = std::find_if(history.begin(), history.end(), [&](double value) {
-    return std::abs(value - best) <= part * std::abs(best);
-  });
-  return static_cast<std::size_t>(near - history.begin()) + 1;
-}
-
-void tell(std::ostream& out, const StudyFile& study, const OptimumResult& result) {
-  constexpr std::size_t most_lines = 20;
-  out << (result.points.size() > 1 ? std::to_string(result.points.size()) + " points of the Pareto front\n"
-                                   : std::string("best variant\n"));
-  for (std::size_t i = 0; i < std::min(most_lines, result.points.size()); ++i) {
-    const std::vector<double> values = all_values(study, result.points[i]);
-    for (std::size_t k = 0; k < values.size(); ++k)
-      out << "  " << study.variables[k].name << " = " << text_of(values[k], 8);
-    for (std::size_t k = 0; k < study.quantities.size(); ++k)
-      out << "  " << study.quantities[k].name << " = " << text_of(result.quantities[i][k], 8);
-    out << "\n";
-  }
-  if (result.points.size() > most_lines)
-    out << "  the first " << most_lines << " of them, by the first objective; study.json has all\n";
-  if (result.points.size() == 1 && !result.history.empty())
-    out << "  within 1 % of it after " << variants_until(result.history, 0.01)
-        << " variants, within 0.1 % after " << variants_until(result.history, 0.001) << ", of "
-        << result.history.size() << "\n";
-  if (result.cut_off)
-    out << "  the search has used up its \"evaluations\": give more of them to see whether it gets better\n";
-}
-
-void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& result) {
-  const auto& calibration = std::get<StudyCalibration>(study.task);
-  const std::vector<std::size_t> free = study.free_variables();
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    out << study.variables[free[i]].name << " = " << text_of(result.point[i], 6);
-    if (result.sd.empty()) {
-      out << "\n";
-      continue;
-    }
-    out << " +- " << text_of(result.sd[i], 3) << "  (" << text_of(result.lower[i], 6) << " to "
-        << text_of(result.upper[i], 6) << " with " << text_of(100 * calibration.confidence) << " %)\n";
-    for (std::size_t k = 0; k < i; ++k)
-      out << "  correlation with " << study.variables[free[k]].name << " "
-          << text_of(result.covariance[i][k] / (result.sd[i] * result.sd[k]), 3) << "\n";
-  }
-  out << (result.degrees_of_freedom > 0 ? "standard deviation of the noise: "
-                                        : "root mean square of what is left: ")
-      << text_of(result.noise, 4) << " of the given sd\n";
 }
 
 }  // namespace
@@ -334,42 +261,6 @@ void write_study_summary(const std::filesystem::path& file, const StudyFile& stu
   Json json = Json::parse(study_summary(study, result));
   json["files"] = {{{"file", table.filename().string()}, {"sha256", sha256_of_file(table)}}};
   write_text(file, with_checksum(json.dump()));
-}
-
-std::string study_plan_text(const StudyFile& study) {
-  const std::size_t free = study.free_variables().size();
-  std::ostringstream out;
-  out << free << " variables that vary, " << study.variables.size() - free << " made of them, "
-      << study.quantities.size() << " quantities\n";
-  std::visit(
-      [&](const auto& task) {
-        using Task = std::decay_t<decltype(task)>;
-        if constexpr (std::is_same_v<Task, StudyPlan>)
-          out << plan_points(study, task).size() << " variants\n";
-        if constexpr (std::is_same_v<Task, StudySensitivity>)
-          out << task.count * (static_cast<int>(free) + 2) << " variants for Sobol indices\n";
-        if constexpr (std::is_same_v<Task, StudyReliability>)
-          out << "at most about " << task.count << " variants for a probability\n";
-        if constexpr (std::is_same_v<Task, StudyOptimum>)
-          out << "at most about " << task.evaluations << " variants for an optimum\n";
-        if constexpr (std::is_same_v<Task, StudyCalibration>)
-          out << "at most about " << task.evaluations << " variants for a calibration\n";
-      },
-      study.task);
-  return out.str();
-}
-
-std::string answer_text(const StudyFile& study, const StudyResult& result) {
-  std::ostringstream out;
-  std::visit([&](const auto& answer) { tell(out, study, answer); }, result.answer);
-  const bool searched = std::holds_alternative<OptimumResult>(result.answer) ||
-                        std::holds_alternative<CalibrationResult>(result.answer);
-  if (const std::string undone = undone_text(result.variants); searched && !undone.empty())
-    out << "  variants that are not done, of " << result.variants.size() << ": " << undone << "\n";
-  for (const SurrogateResult& surrogate : result.surrogates)
-    out << "surrogate of " << surrogate.quantity << "  Q2 " << text_of(surrogate.q2, 4) << "  largest error "
-        << text_of(surrogate.largest_error, 3) << " at the variants held back\n";
-  return out.str();
 }
 
 }  // namespace nurbeam

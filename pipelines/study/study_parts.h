@@ -35,6 +35,31 @@ class StudyPartReader {
   Findings& findings_;
 };
 
+/// Reads the `distribution` of a variable, of a file whose earlier variables have been read: those with a
+/// range may make its parameters.
+void read_study_distribution(const Json& whole, const Json& json, Dimension dimension,
+                             StudyVariable& variable, StudyFile& study, Findings& findings);
+/// Whether a parameter of a distribution, as it is written, is this variable and no more.
+bool stands_alone_in(const Json& distribution, const std::string& variable);
+/// The mean of what is left within the ends.
+double middle_of(const StudyDistribution& distribution);
+/// Something of the distribution must lie between where it is cut off, and the nominal value within.
+void check_ends(const StudyVariable& variable, Findings& findings);
+/// Of distributions that design variables make: they must be such over all ranges, and have a use.
+void check_formulas(const StudyFile& study, Findings& findings);
+
+/// Reads an inequality of a probability or a reliability index, of `optimise`.
+void read_probability(const Json& whole, const std::string& source, const std::string& path,
+                      StudyOptimum& optimum, StudyFile& study, Findings& findings);
+/// Whether an inequality is one of those.
+bool asks_for_probability(const std::string& source);
+/// Reads the `check` of `optimise`, a simulation of its probabilities.
+void read_probability_check(const Json& whole, bool has_probabilities, StudyOptimum& optimum,
+                            StudyFile& study, Findings& findings);
+/// Of a study with a probability: something must be random, and something be searched.
+void check_random_design(const Json& whole, const StudyOptimum& optimum, StudyFile& study,
+                         Findings& findings);
+
 /// Reads what a study is asked: `plan`, `sensitivity`, `reliability`, `optimise` and `surrogate`, of a file
 /// whose variables and quantities have been read.
 void read_study_task(const Json& json, StudyFile& study, Findings& findings);

@@ -89,7 +89,8 @@ Json page_data(const StudyFile& study, const StudyCase* study_case, const StudyR
                {"best", best},
                {"curves", study_case ? curves_of(study, *study_case, result.variants, best) : Json::array()}};
   for (const StudyVariable& variable : study.variables)
-    data["variables"].push_back({{"name", variable.name}, {"unit", variable.unit}});
+    data["variables"].push_back(
+        {{"name", variable.name}, {"unit", variable.unit}, {"derived", variable.derived.has_value()}});
   std::size_t shown = 0;  // what is observed stands in the answer
   for (const StudyQuantity& quantity : study.quantities) {
     if (quantity.observed) break;

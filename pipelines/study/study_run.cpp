@@ -144,6 +144,15 @@ bool begins_at_nominal(const StudyTask& task) {
   return reliability && reliability->method != StudyReliability::Method::monte_carlo;
 }
 
+// Of a probability about four for each design, and those of its check.
+std::size_t variants_of(const StudyOptimum& optimum) {
+  constexpr std::size_t of_probability = 4;
+  const std::size_t probabilities = optimum.probabilities.size();
+  const std::size_t check = optimum.check ? static_cast<std::size_t>(optimum.check->count) : 0;
+  return static_cast<std::size_t>(optimum.evaluations) * (1 + of_probability * probabilities) +
+         probabilities * check;
+}
+
 /// What a method says of its end, with what has become of the variants.
 std::string whole_failure(const StudyTask& task, const std::string& of_method,
                           const std::vector<Variant>& variants) {
@@ -181,6 +190,8 @@ std::size_t expected_variants(const StudyFile& study) {
           return static_cast<std::size_t>(task.count) * (study.free_variables().size() + 2);
         else if constexpr (std::is_same_v<Task, StudyReliability>)
           return static_cast<std::size_t>(task.count);
+        else if constexpr (std::is_same_v<Task, StudyOptimum>)
+          return variants_of(task);
         else
           return static_cast<std::size_t>(task.evaluations);
       },
@@ -209,7 +220,8 @@ StudyResult run_study(const StudyFile& study, StudyEngine& engine, StudyRows& ro
           if constexpr (std::is_same_v<Task, StudyReliability>)
             result.answer = failure_probability(study, task, evaluate, derivatives);
           if constexpr (std::is_same_v<Task, StudyOptimum>)
-            result.answer = find_optimum(study, task, evaluate, derivatives);
+            result.answer = (task.probabilities.empty() ? find_optimum : find_reliable_optimum)(
+                study, task, evaluate, derivatives);
           if constexpr (std::is_same_v<Task, StudyCalibration>)
             result.answer = calibrate(study, task, evaluate, derivatives);
         },

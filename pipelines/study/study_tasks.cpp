@@ -223,14 +223,22 @@ class StudyTaskReader : StudyPartReader {
     }
     if (!json.contains("minimise") && !json.contains("maximise"))
       findings_.error("optimise", "needs \"minimise\" or \"maximise\"");
+    bool has_probabilities = false;  // also wrong ones
     for_each_item(json, "subject_to", "optimise", [&](const Json& item, const std::string& path) {
-      read_inequality(item.get<std::string>(), path, optimum);
+      const auto text = item.get<std::string>();
+      const bool asks = asks_for_probability(text);
+      has_probabilities = has_probabilities || asks;
+      if (asks)
+        read_probability(json_, text, path, optimum, study_, findings_);
+      else
+        read_inequality(text, path, optimum);
     });
     optimum.method = chosen<Method>(json, "method",
                                     {{"cobyla", Method::cobyla},
                                      {"nelder_mead", Method::nelder_mead},
                                      {"gradient", Method::gradient},
                                      {"genetic", Method::genetic}});
+    if (has_probabilities && !has(json, "method")) optimum.method = Method::gradient;
     if (optimum.objectives.size() > 1) {
       if (has(json, "method") && optimum.method != Method::genetic)
         findings_.error("optimise.method", "with several objectives it must be \"genetic\"");
@@ -243,10 +251,16 @@ class StudyTaskReader : StudyPartReader {
       for_each_no_comparison([&](const std::string& path, const std::string& is_none) {
         findings_.warn(path, is_none + ": else it may end before the optimum");
       });
-    study_.derivatives = read_derivatives(json, "optimise", optimum.method == Method::gradient);
+    study_.derivatives =
+        read_derivatives(json, "optimise", has_probabilities || optimum.method == Method::gradient);
+    study_.derivatives_where_known = has_probabilities && !has(json, "derivatives");
+    read_probability_check(json_, has_probabilities, optimum, study_, findings_);
     optimum.evaluations = static_cast<int>(number(json, "evaluations", 100));
     optimum.tolerance = number(json, "tolerance", 1e-4);
-    check_bounded("optimise");
+    if (has_probabilities)
+      check_random_design(json_, optimum, study_, findings_);
+    else
+      check_bounded("optimise");
     return optimum;
   }
 

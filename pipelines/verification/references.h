@@ -68,7 +68,7 @@ inline std::vector<Swing> pendulum_with_material_curvature() {
 }
 
 /// The pendulum by CalculiX 2.20 (tests/calculix/pendulum.py): elements B32R, expanded to solids and so
-/// flexible in shear, step 1 ms; with 16 of them, and with 8 for what the mesh leaves.
+/// flexible in shear, step 1 ms; with 16 of them, with 8 for what the mesh leaves, and with half the step.
 inline std::vector<Swing> pendulum_by_calculix() {
   return {{0.1, 0.476158, -0.049021}, {0.2, 0.423437, -0.220639}, {0.3, 0.527220, -0.641109},
           {0.4, 0.505992, -0.746603}, {0.5, 0.500224, -0.641037}, {0.6, 0.489526, -0.395011},
@@ -80,6 +80,20 @@ inline std::vector<Swing> pendulum_by_calculix_with_8() {
           {0.4, 0.505944, -0.746507}, {0.5, 0.500360, -0.641002}, {0.6, 0.490058, -0.394560},
           {0.7, 0.522288, -0.147523}, {0.8, 0.437002, -0.067835}, {0.9, 0.411958, -0.192358},
           {1, 0.522621, -0.542732}};
+}
+
+inline std::vector<Swing> pendulum_by_calculix_with_half_the_step() {
+  return {{0.1, 0.476159, -0.049022}, {0.2, 0.423429, -0.220635}, {0.3, 0.527220, -0.641114},
+          {0.4, 0.505992, -0.746596}, {0.5, 0.500224, -0.641029}, {0.6, 0.489651, -0.394958},
+          {0.7, 0.522171, -0.149401}, {0.8, 0.435514, -0.067535}, {0.9, 0.412187, -0.192616},
+          {1, 0.521520, -0.542073}};
+}
+/// Half as high, with the same bending stiffness and mass: 16 elements, 1 ms.
+inline std::vector<Swing> thin_pendulum_by_calculix() {
+  return {{0.1, 0.475483, -0.049186}, {0.2, 0.422847, -0.222070}, {0.3, 0.521227, -0.644518},
+          {0.4, 0.499368, -0.731123}, {0.5, 0.477878, -0.615130}, {0.6, 0.503359, -0.359116},
+          {0.7, 0.504851, -0.117294}, {0.8, 0.430274, -0.076024}, {0.9, 0.427184, -0.216667},
+          {1, 0.529722, -0.599298}};
 }
 
 }  // namespace nurbeam::references

@@ -569,6 +569,7 @@ class Model:
         end; Ctrl-C ends it with KeyboardInterrupt. Other threads go on meanwhile."""
         keys = {"end_time": end_time, "step": step, **analysis}
         built, findings = self._built(keys, every)
+        findings += findings_of(built.divide_for_motion(bool(self._laws or self._motions)))
         tell(findings)
         if out is not None:
             return self._run_into(built, out, resume, progress)

@@ -39,7 +39,10 @@ class Study(Mapping[str, Array]):
     NaN where a variant is not done.
 
     `units` are those of the quantities that have one, `statuses` and `reasons` say how each variant ended; `answer` is what
-    the study found: Sobol indices, a probability, the best variants, derivatives of quantities; None for another plan.
+    the study found: Sobol indices, a probability, the best variants, derivatives of quantities; None for another plan. Of
+    an optimum that is subject to probabilities, `answer["probabilities"]` has for each: "constraint",
+    "least_reliability_index", FORM's "probability", "reliability_index", "design_point" and "importance", the
+    "reliability_index_gradient" by the design variables, and "check", the simulation, where the study asks for one.
     `surrogates` has, where the study asks for them, one for each quantity: "quantity", "q2" (1: exact), "largest_error" at
     the variants held back, "sobol_indices".
     """

@@ -37,6 +37,21 @@ def test_an_answer_comes_with_the_variants(tmp_path):
     assert first["lower"] - 0.05 < 0.4424 < first["upper"] + 0.05
 
 
+def test_an_optimum_holds_its_probability(tmp_path):
+    normal = [("R", {"mean": "r", "sd": 2}), ("S", {"mean": 10, "sd": 1.5})]
+    variables = [{"name": name, "distribution": {"normal": moments}} for name, moments in normal]
+    study = nb.study({
+        "nurbeam_study": 1,
+        "variables": [{"name": "r", "range": [5, 40]}, *variables],
+        "quantities": [{"name": "cost", "value": "r"}, {"name": "margin", "value": "R - S"}],
+        "optimise": {"minimise": "cost", "subject_to": ["probability(margin < 0) <= 1e-3"], "check": {"count": 300}},
+    }, out=tmp_path, jobs=1)  # fmt: skip
+    found = study.answer["probabilities"][0]
+    assert found["design_point"]["r"] == pytest.approx(10 + 2.5 * 3.090232306, abs=1e-3)
+    assert found["reliability_index_gradient"]["r"] == pytest.approx(0.4, abs=1e-6)
+    assert found["check"]["probability"] == pytest.approx(1e-3, rel=0.5)
+
+
 def test_what_is_wrong_is_a_list_of_findings(tmp_path):
     wrong = {**ISHIGAMI, "plan": {"grid": [2, 2]}, "constraints": ["x4 < 1"]}
     with pytest.raises(nb.CaseError) as raised:

@@ -143,7 +143,41 @@ def the_time_depends_on_what_it_should():
     assert answer["E"]["total_order"]["value"] > answer["density"]["total_order"]["value"]
 
 
+def the_arm_is_as_strong_as_asked():
+    def index_and_log(limit_log, parts):
+        """The reliability index of a sum of normal logarithms, and how it grows with the logarithm of the radius."""
+        of = {name: math.log1p(variation**2) for name, variation in (("F", 0.15), ("E", 0.05), ("r", 0.02), ("s", 0.07))}
+        sd = math.sqrt(sum(power**2 * of[name] for name, _, power in parts))
+        mean = sum(power * (math.log(mean) - of[name] / 2) for name, mean, power in parts)
+        return (mean - limit_log) / sd, next(power for name, _, power in parts if name == "r") / sd
+
+    answer = run("arm_reliability", optimise={"check": {"count": 400}})
+    radius = answer["optima"][0]["variables"]["mean_radius"]
+    sink, sink_by = index_and_log(math.log(4 / (3 * math.pi * 5e-3)), [("r", radius, 4), ("E", 210e9, 1), ("F", 100, -1)])
+    stress, stress_by = index_and_log(math.log(4 / math.pi), [("r", radius, 3), ("s", 60e6, 1), ("F", 100, -1)])
+    asked = 4.2648907939228256
+    print(f"arm: {1e3 * radius:.5f} mm, reliability indices {sink:.5f} and {stress:.5f}, asked for {asked:.5f}")
+    assert abs(stress - asked) < 1e-3 and sink > 3.0902
+    for found, index, by in zip(answer["probabilities"], (sink, stress), (sink_by, stress_by)):
+        assert abs(found["reliability_index"] - index) < 1e-3, found
+        assert abs(found["reliability_index_gradient"]["mean_radius"] * radius / by - 1) < 1e-3, found
+        deviation = found["check"]["probability"] * found["check"]["coefficient_of_variation"]
+        assert abs(found["check"]["probability"] - found["probability"]) < 4 * deviation, found
+    assert "doubts" not in answer, answer["doubts"]
+
+
+def grading_pays_with_three_elements():
+    run("grading")
+    error = {(round(float(row["log2_d"])), round(float(row["share"]), 2)): float(row["error [mm]"]) for row in rows("grading")}
+    best = {d: min((error[d, share], share) for each, share in error if each == d) for d in (-1, 0, 2)}
+    print("graded pendulum:", {d: (round(error[d, 0], 2), *best[d]) for d in best})
+    assert best[-1][0] < 0.5 * error[-1, 0] and best[-1][1] == 0.45
+    assert 0.6 < best[0][0] / error[0, 0] < 0.7 and best[2][0] > 0.8 * error[2, 0]
+
+
 shutil.rmtree(scratch, ignore_errors=True)
+the_arm_is_as_strong_as_asked()
+grading_pays_with_three_elements()
 the_rail_is_as_fast_as_the_cycloid()
 the_rail_is_found_in_a_tenth_of_the_runs_along_derivatives()
 the_falling_beam_has_the_derivatives_that_differences_tend_to()

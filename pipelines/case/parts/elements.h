@@ -4,12 +4,16 @@
 
 namespace nurbeam {
 
+/// Where a tolerance holds: in the static state in which the analysis starts, or at all output times.
+enum class ToleranceOver { start, motion };
+
 struct CaseElements {
   std::optional<int> count;
   std::optional<double> max_length;  ///< [m]
   std::optional<int> per_segment;
   std::optional<double> tolerance;  ///< error of positions over the length (adapt_mesh)
-  double grading = 0;               ///< increment of length between neighbouring elements of one segment [m]
+  ToleranceOver over = ToleranceOver::start;
+  double grading = 0;  ///< increment of length between neighbouring elements of one segment [m]
 };
 
 inline Fields<CaseElements> elements_fields() {
@@ -29,6 +33,11 @@ inline Fields<CaseElements> elements_fields() {
               &E::tolerance, "tolerance", quantity(Dimension::number, tolerance),
               "as many elements as the beam needs for this error of positions, over its length, estimated from "
               "the static state in which bodies are held where they start"),
+          choice_field(&E::over, "over", {{"start", ToleranceOver::start}, {"motion", ToleranceOver::motion}},
+                       "where the tolerance holds; motion: over the whole motion, found by runs with ever "
+                       "twice the elements, in \"nurbeam run\" and Python")
+              .otherwise("start")
+              .beside("tolerance"),
           field(&E::grading, "grading", quantity(Dimension::length),
                 "how much longer each element is than the one before it in its segment; negative: shorter")
               .beside("per_segment"),

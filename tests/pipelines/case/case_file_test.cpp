@@ -713,6 +713,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "longest",
                                                "chains",
                                                "tolerance",
+                                               "over",
                                                "polyline",
                                                "speed",
                                                "torsion",
