@@ -35,7 +35,7 @@ def instructions(program, model, directory):
     file = directory / "case.json"
     file.write_text(json.dumps(model))
     run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={directory}/callgrind", program, "run",
-                          file, "--out", directory / "results", "--quiet"], capture_output=True, text=True, check=True)
+                          file, "--out", tempfile.mktemp(dir=directory), "--quiet"], capture_output=True, text=True, check=True)
     return int(re.search(r"refs:\s+([\d,]+)", run.stderr).group(1).replace(",", ""))
 
 
