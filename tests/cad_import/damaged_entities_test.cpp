@@ -345,5 +345,19 @@ TEST(DamagedEntity, CurvesOfPartsThatNothingPlacesAreToldInOneLine) {
       << report.diagnostics[0].message;
 }
 
+// OpenCASCADE may look for what they and missing ones refer to without end.
+TEST(DamagedEntity, InstancesWhoseNumberStandsTwiceAreLeftOut) {
+  const ImportReport report = imported(step_text_of("#100,#102",
+                                                    "#100 = POLYLINE('',(#12,#101));\n"
+                                                    "#101 = CARTESIAN_POINT('',(9.,0.,0.));\n"
+                                                    "#101 = CARTESIAN_POINT('',(5.,0.,0.));\n"
+                                                    "#102 = POLYLINE('',(#12,#199));\n"));
+  ASSERT_EQ(report.curves.size(), 1U);
+  EXPECT_NEAR(length(report.curves[0].curve), 9e-3, 1e-12);
+  ASSERT_FALSE(report.diagnostics.empty());
+  EXPECT_NE(report.diagnostics[0].where.find("#101 CARTESIAN_POINT"), std::string::npos);
+  EXPECT_NE(report.diagnostics[0].message.find("an instance before it has its number"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace nurbeam::damaged_entities
