@@ -116,6 +116,13 @@ TEST(DamagedEntity, ARangeThatIsLostIsTheWholeSpline) {
 }
 
 // The parts of a composite curve, a group and a subfigure around a damaged line.
+// OpenCASCADE trims it without end.
+TEST(DamagedEntity, AConicOfAFormThatIsNoneIsNamedAtOnce) {
+  expect_named(
+      {.type = 104, .parameters = "104,0.5,0.,1.,0.,0.,-0.5,0.,0.7575,-0.4616,-0.8971,0.3125;", .form = 8},
+      "ConicArc", "its form number 8");
+}
+
 // OpenCASCADE crashes on the odd line that is left, and takes the entities behind it for others.
 TEST(DamagedEntity, ALostLineOfADirectoryEntryCostsThatEntity) {
   const std::string whole = iges_text_of({good, {.type = 110, .parameters = "110,0.,0.,0.,3.,4.,0.;"}, good});
