@@ -25,14 +25,18 @@ bool begins_as_step(std::string_view text) {
                     [](unsigned char c, char wanted) { return std::toupper(c) == wanted; });
 }
 
-/// Whether the schema that a STEP text names is one of IFC.
-bool has_ifc_schema(std::string_view text) {
+/// Whether a STEP text is one of IFC: by its schema, or else by its first instance.
+bool is_ifc(std::string_view text) {
   constexpr std::size_t longest_header = 1 << 16;
   std::string header(text.substr(0, longest_header));
-  std::transform(header.begin(), header.end(), header.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(
+      header.begin(), header.end(), header.begin(),
+      [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const auto is_at = [&](std::size_t at) { return at < header.size() && header.compare(at, 3, "IFC") == 0; };
   const std::size_t schema = header.find("FILE_SCHEMA"), name = header.find('\'', schema);
-  return schema != std::string::npos && name != std::string::npos && header.compare(name + 1, 3, "IFC") == 0;
+  if (schema != std::string::npos && name != std::string::npos && is_at(name + 1)) return true;
+  const std::size_t equals = header.find('=', std::min(header.find("ENDSEC"), header.size()));
+  return equals != std::string::npos && is_at(header.find_first_not_of(" \t\r\n", equals + 1));
 }
 
 std::string_view without_trailing_space(std::string_view text) {
@@ -89,7 +93,7 @@ std::optional<long> declared_count(std::string_view terminate, char section) {
 }  // namespace
 
 std::optional<CadFormat> format_of(const std::string& content) {
-  if (begins_as_step(content)) return has_ifc_schema(content) ? CadFormat::ifc : CadFormat::step;
+  if (begins_as_step(content)) return is_ifc(content) ? CadFormat::ifc : CadFormat::step;
   if (has_iges_section(first_line(content), 'S')) return CadFormat::iges;
   if (begins_as_dxf(content)) return CadFormat::dxf;
   if (const std::string_view text = without_leading_space(content);

@@ -354,11 +354,15 @@ Alignment alignment_of_segments(const IfcModel& model, int alignment) {
 }
 
 Alignment alignment_of_composite(const IfcModel& model, const IfcValue& curve) {
-  if (curve.text == "IFCSEGMENTEDREFERENCECURVE")  // the cant does not move the curve of the track's middle
-    return alignment_of_composite(model, model.at(curve.at(2)));
+  if (curve.text == "IFCSEGMENTEDREFERENCECURVE") {  // the cant does not move the curve of the track's middle
+    const IfcValue base = model.at(curve.at(2));
+    if (base.text == curve.text) throw std::runtime_error("its base curve has a cant itself");
+    return alignment_of_composite(model, base);
+  }
   if (curve.text == "IFCGRADIENTCURVE") {
     const IfcValue base = model.at(curve.at(2));
-    if (base.text == "IFCGRADIENTCURVE") throw std::runtime_error("its base curve has a grade itself");
+    if (base.text == curve.text || base.text == "IFCSEGMENTEDREFERENCECURVE")
+      throw std::runtime_error("its base curve has a grade itself");
     Alignment alignment = alignment_of_composite(model, base);
     alignment.grade = elements_of<GradeElement>(curve.at(0), [&](const IfcValue& item) {
       return grade_element(curve_segment(model, model.at(item)));

@@ -20,7 +20,7 @@ namespace {
 using std::numbers::pi;
 using Curves = std::vector<ImportedCurve>;
 
-constexpr int deepest = 50;
+constexpr std::size_t deepest = 50;
 
 ImportedCurve named(std::string kind, NurbsCurve curve) {
   return {.entity = std::move(kind), .curve = std::move(curve)};
@@ -73,26 +73,16 @@ class Reader {
  public:
   Reader(const IfcModel& model, double tolerance) : model_(model), tolerance_(tolerance) {}
 
-  Curves curves(int instance, int depth) const {
+  Curves curves(int instance) const {
     constexpr int most_visited = 100'000;
-    if (depth > deepest || ++visited_ > most_visited)
+    const bool is_within_itself = std::find(within_.begin(), within_.end(), instance) != within_.end();
+    if (is_within_itself || within_.size() > deepest || ++visited_ > most_visited)
       throw std::runtime_error("it is nested too deeply, or made of itself: a circle of references");
-    const IfcValue given = model_.instance(instance);
-    const std::string& kind = given.text;
-    if (kind == "IFCPOLYLINE") return {named("bspline", polyline(points_of(given.at(0))))};
-    if (kind == "IFCINDEXEDPOLYCURVE") return indexed(given);
-    if (kind == "IFCTRIMMEDCURVE") return {trimmed(given)};
-    if (kind == "IFCCIRCLE" || kind == "IFCELLIPSE") return {conic(given, 0, 2 * pi)};
-    if (kind.starts_with("IFCBSPLINECURVE") || kind.starts_with("IFCRATIONALBSPLINECURVE"))
-      return spline(given);
-    if (kind == "IFCALIGNMENTCURVE") return of_alignment(alignment_of_curve(model_, given));
-    if (kind == "IFCGRADIENTCURVE" || kind == "IFCSEGMENTEDREFERENCECURVE")
-      return of_alignment(alignment_of_composite(model_, given));
-    if (kind == "IFCCOMPOSITECURVE" || kind == "IFCCOMPOSITECURVEONSURFACE" || kind == "IFC2DCOMPOSITECURVE")
-      return composite(given, depth);
-    throw std::runtime_error(kind + " is not read");
+    within_.push_back(instance);
+    Curves found = curves_of(model_.instance(instance));
+    within_.pop_back();
+    return found;
   }
-
   Curves of_alignment(const Alignment& alignment) const {
     Curves curves;
     for (AlignmentCurve& part :
@@ -109,6 +99,22 @@ class Reader {
   }
 
  private:
+  Curves curves_of(const IfcValue& given) const {
+    const std::string& kind = given.text;
+    if (kind == "IFCPOLYLINE") return {named("bspline", polyline(points_of(given.at(0))))};
+    if (kind == "IFCINDEXEDPOLYCURVE") return indexed(given);
+    if (kind == "IFCTRIMMEDCURVE") return {trimmed(given)};
+    if (kind == "IFCCIRCLE" || kind == "IFCELLIPSE") return {conic(given, 0, 2 * pi)};
+    if (kind.starts_with("IFCBSPLINECURVE") || kind.starts_with("IFCRATIONALBSPLINECURVE"))
+      return spline(given);
+    if (kind == "IFCALIGNMENTCURVE") return of_alignment(alignment_of_curve(model_, given));
+    if (kind == "IFCGRADIENTCURVE" || kind == "IFCSEGMENTEDREFERENCECURVE")
+      return of_alignment(alignment_of_composite(model_, given));
+    if (kind == "IFCCOMPOSITECURVE" || kind == "IFCCOMPOSITECURVEONSURFACE" || kind == "IFC2DCOMPOSITECURVE")
+      return composite(given);
+    throw std::runtime_error(kind + " is not read");
+  }
+
   std::vector<Eigen::Vector3d> points_of(const IfcValue& list) const {
     std::vector<Eigen::Vector3d> points;
     for (const IfcValue& point : list.items) points.push_back(ifc_point(model_, point));
@@ -234,7 +240,7 @@ class Reader {
     return curves;
   }
 
-  Curves composite(const IfcValue& given, int depth) const {
+  Curves composite(const IfcValue& given) const {
     const IfcValue& segments = given.at(0);
     if (!segments.items.empty() && model_.at(segments.items[0]).text == "IFCCURVESEGMENT")
       return of_alignment(alignment_of_composite(model_, given));
@@ -242,7 +248,7 @@ class Reader {
     for (const IfcValue& reference : segments.items) {
       const IfcValue segment = model_.at(reference);
       if (!segment.at(2).is_reference()) throw std::runtime_error(segment.text + " is not read");
-      Curves own = curves(segment.at(2).reference, depth + 1);
+      Curves own = curves(segment.at(2).reference);
       if (segment.at(1).text == "F") {
         std::reverse(own.begin(), own.end());
         for (ImportedCurve& curve : own) curve.curve = curve.curve.reversed();
@@ -255,12 +261,13 @@ class Reader {
   const IfcModel& model_;
   double tolerance_;
   mutable int visited_ = 0;
+  mutable std::vector<int> within_;  // the curve that is read, and those that are made of it
 };
 
 }  // namespace
 
 std::vector<ImportedCurve> ifc_curves(const IfcModel& model, int instance, double tolerance) {
-  return Reader(model, tolerance).curves(instance, 0);
+  return Reader(model, tolerance).curves(instance);
 }
 
 std::vector<ImportedCurve> ifc_alignment(const IfcModel& model, int alignment, double tolerance) {
@@ -272,7 +279,7 @@ bool is_ifc_curve(std::string_view keyword) {
        {"CURVE", "POLYLINE", "IFCLINE", "IFCCIRCLE", "IFCELLIPSE", "CLOTHOID", "SPIRAL"})
     if (keyword.find(part) != std::string_view::npos)
       return keyword.find("STYLE") == std::string_view::npos &&
-             keyword.find("SEGMENT") == std::string_view::npos &&
+             (keyword.find("SEGMENT") == std::string_view::npos || keyword.starts_with("IFCSEGMENTED")) &&
              keyword.find("SET") == std::string_view::npos && !keyword.ends_with("PROFILEDEF") &&
              !keyword.starts_with("IFCREL") && keyword.find("HOLLOW") == std::string_view::npos &&
              keyword.find("BOUNDED") == std::string_view::npos;

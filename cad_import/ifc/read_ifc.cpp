@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "cad_import/files/told_share.h"
-#include "cad_import/ifc/cut_directrix.h"
-#include "cad_import/ifc/fillets.h"
 #include "cad_import/ifc/ifc_curve.h"
 #include "cad_import/ifc/ifc_model.h"
+#include "cad_import/ifc/ifc_pipe.h"
 #include "cad_import/occt/placed_curve.h"
 #include "cad_import/report/length_unit.h"
 #include "nurbs/arc_length.h"
@@ -23,7 +22,8 @@
 namespace nurbeam {
 namespace {
 
-constexpr int most_warnings = 20, deepest_item = 50;
+constexpr int most_warnings = 20;
+constexpr std::size_t deepest_item = 50;
 constexpr std::size_t most_ifc_curves = 500'000;
 constexpr int most_items = 2'000'000;  // those that are placed again and again counted as often
 
@@ -32,12 +32,6 @@ struct Product {
   std::string name, layer = {};
   Eigen::Affine3d place = Eigen::Affine3d::Identity();
 };
-
-NurbsCurve straight(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  Eigen::Matrix3Xd ends(3, 2);
-  ends << from, to;
-  return make_nurbs_curve(KnotVector(1, {0, 0, 1, 1}), ends, Eigen::VectorXd::Ones(2));
-}
 
 class IfcReader {
  public:
@@ -178,7 +172,7 @@ class IfcReader {
   static bool is_geometry(std::string_view keyword) {
     for (const std::string_view prefix :
          {"IFCCARTESIANPOINT", "IFCDIRECTION", "IFCPOLYLOOP", "IFCFACE", "IFCAXIS2", "IFCPROPERTY", "IFCREL",
-          "IFCSTYLED", "IFCSHAPE", "IFCQUANTITY"})
+          "IFCSTYLED", "IFCPRESENTATION", "IFCSHAPE", "IFCQUANTITY"})
       if (keyword.starts_with(prefix)) return true;
     return false;
   }
@@ -197,88 +191,44 @@ class IfcReader {
       const auto layer = layers_.find(references[i].reference);
       product.layer = layer == layers_.end() ? "" : layer->second;
       const Product placed = in_world(representations[i].at(0).reference, product);
-      for (const IfcValue& item : items_of(representations[i])) read_item(item.reference, placed, 0);
+      for (const IfcValue& item : items_of(representations[i])) read_item(item.reference, placed);
     }
   }
 
-  void read_item(int item, const Product& product, int depth) {
+  void read_item(int item, const Product& product) {
     if (++visited_ > most_items) return;
+    const std::size_t depth = within_.size();
     attempt(item, [&] {
-      if (depth > deepest_item) throw std::runtime_error("it is made of itself: a circle of references");
+      if (std::find(within_.begin(), within_.end(), item) != within_.end() || depth > deepest_item)
+        throw std::runtime_error("it is made of itself: a circle of references");
+      within_.push_back(item);
       const std::string_view keyword = model_.keyword(item);
       if (keyword.empty()) throw std::runtime_error("a shape refers to it, and the file does not have it");
-      if (keyword == "IFCMAPPEDITEM") return read_mapped(model_.instance(item), product, depth);
+      if (keyword == "IFCMAPPEDITEM") return read_mapped(model_.instance(item), product);
       if (keyword == "IFCGEOMETRICSET" || keyword == "IFCGEOMETRICCURVESET")
         for (const IfcValue& element : model_.instance(item).at(0).items)
-          read_item(element.reference, product, depth + 1);
-      else if (keyword.starts_with("IFCSWEPTDISKSOLID"))
-        add_pipe(swept_disk(item), item, product);
-      else if (keyword == "IFCEXTRUDEDAREASOLID" && add_extruded_circle(item, product))
-        return;
+          read_item(element.reference, product);
+      else if (std::optional<IfcPipe> pipe = ifc_pipe(model_, item, tolerance_))
+        add_pipe(std::move(*pipe), item, product);
       else if (is_ifc_curve(keyword))
         add(ifc_curves(model_, item, tolerance_), item, product);
       else
         ++others_[std::string(keyword)];
     });
+    within_.resize(depth);
   }
 
-  void read_mapped(const IfcValue& mapped, const Product& product, int depth) {
+  void read_mapped(const IfcValue& mapped, const Product& product) {
     const IfcValue source = model_.at(mapped.at(0));
     Product moved = product;
     moved.place =
         product.place * ifc_placement(model_, mapped.at(1)) * ifc_placement(model_, source.at(0)).inverse();
     const IfcValue representation = model_.at(source.at(1));
-    for (const IfcValue& item : items_of(representation)) read_item(item.reference, moved, depth + 1);
+    for (const IfcValue& item : items_of(representation)) read_item(item.reference, moved);
   }
 
-  /// A pipe: its centre line, and its radii in the file's unit.
-  struct Pipe {
-    std::vector<ImportedCurve> centre;
-    double radius, bore = 0;
-  };
-
-  Pipe swept_disk(int item) {
-    const IfcValue solid = model_.instance(item);
-    if (!solid.at(0).is_reference()) throw std::runtime_error("it has no directrix");
-    Pipe pipe{ifc_curves(model_, solid.at(0).reference, tolerance_), solid.at(1).as_number()};
-    if (solid.at(2).kind != IfcValue::Kind::none) pipe.bore = solid.at(2).as_number();
-    CutDirectrix cut =
-        cut_directrix(std::move(pipe.centre), number_or_none(solid.at(3)), number_or_none(solid.at(4)));
-    if (!cut.remark.empty()) warn(item, cut.remark);
-    pipe.centre = std::move(cut.curves);
-    if (solid.text == "IFCSWEPTDISKSOLIDPOLYGONAL" && solid.at(5).kind != IfcValue::Kind::none)
-      round_corners(pipe, solid.at(5).as_number());
-    return pipe;
-  }
-
-  static void round_corners(Pipe& pipe, double radius) {
-    if (!(radius > 0) || pipe.centre.size() != 1 || pipe.centre[0].curve.degree() != 1) return;
-    std::vector<ImportedCurve> rounded;
-    for (NurbsCurve& curve : with_fillets(pipe.centre[0].curve, radius))
-      rounded.push_back({.entity = "", .curve = std::move(curve)});
-    pipe.centre = std::move(rounded);
-  }
-
-  static std::optional<double> number_or_none(const IfcValue& value) {
-    return value.kind == IfcValue::Kind::none ? std::nullopt : std::optional(value.as_number());
-  }
-
-  /// A round bar or tube, cut at right angles; false for any other.
-  bool add_extruded_circle(int item, const Product& product) {
-    const IfcValue solid = model_.instance(item), profile = model_.at(solid.at(0));
-    if (!profile.text.starts_with("IFCCIRCLE")) return false;
-    const Eigen::Vector3d along = ifc_vector(model_.at(solid.at(2)).at(0)).normalized();
-    if (!(std::abs(along.z()) > 1 - 1e-9)) return false;
-    const Eigen::Affine3d place = ifc_placement(model_, solid.at(1)) * ifc_placement(model_, profile.at(2));
-    Pipe pipe{{}, profile.at(3).as_number()};
-    if (profile.text == "IFCCIRCLEHOLLOWPROFILEDEF") pipe.bore = pipe.radius - profile.at(4).as_number();
-    const Eigen::Vector3d end(0, 0, along.z() * solid.at(3).as_number());
-    pipe.centre.push_back({.entity = "", .curve = straight(place.translation(), place * end)});
-    add_pipe(std::move(pipe), item, product);
-    return true;
-  }
-
-  void add_pipe(Pipe pipe, int item, const Product& product) {
+  void add_pipe(IfcPipe pipe, int item, const Product& product) {
+    if (!pipe.remark.empty()) warn(item, pipe.remark);
     if (!(pipe.radius > 0))
       throw std::runtime_error("its radius is " + text_of(pipe.radius) + "; it must be positive");
     for (ImportedCurve& curve : pipe.centre) {
@@ -364,7 +314,8 @@ class IfcReader {
     }
     say(Severity::note, "",
         std::to_string(count) +
-            " items of shapes are no curves, swept disks or extruded circles, and are not read: " + kinds);
+            " items of shapes are no curves, swept disks or circles extruded or revolved, and are not read: " +
+            kinds);
   }
 
   IfcModel model_;
@@ -373,6 +324,7 @@ class IfcReader {
   std::map<int, std::string> layers_;  // by item or representation
   std::map<std::string, int> others_;  // by kind
   std::set<int> moved_contexts_;
+  std::vector<int> within_;  // the item that is read, and those that hold it
   int warnings_ = 0, visited_ = 0;
 };
 

@@ -67,7 +67,8 @@ Equation equation_of(const IGESGeom_ConicArc& arc) {
 const char* name_of(int kind) {
   return kind == ConicPosition::ellipse     ? "ellipse"
          : kind == ConicPosition::hyperbola ? "hyperbola"
-                                            : "parabola";
+         : kind == ConicPosition::parabola  ? "parabola"
+                                            : "nothing";
 }
 
 /// That of the equation; one that the form number calls a parabola may be none by the digits of the file.
@@ -297,6 +298,11 @@ double put_into_position(IGESGeom_CircularArc& arc, const Leniency& leniency) {
            coordinates(plane.end));
   if (mirrors) set_location(arc, right_handed(location));
   return repair;
+}
+
+void make_harmless(IGESGeom_ConicArc& arc) {
+  arc.Init(1, 0, 1, 0, 0, -1, 0, gp_XY(1, 0), gp_XY(0, 1));
+  arc.OwnCorrect();  // its form
 }
 
 }  // namespace nurbeam

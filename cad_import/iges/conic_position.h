@@ -31,4 +31,8 @@ double put_into_position(IGESGeom_ConicArc& arc, const Leniency& leniency);
 /// distance from the centre both stay, and it moves by the least that makes an arc of them.
 double put_into_position(IGESGeom_CircularArc& arc, const Leniency& leniency);
 
+/// Makes it a quarter of a circle, in the place of one that is refused: OpenCASCADE may trim that without
+/// end.
+void make_harmless(IGESGeom_ConicArc& arc);
+
 }  // namespace nurbeam

@@ -51,39 +51,62 @@ std::size_t hollerith_length(std::string_view text) {
   return is_one ? head + std::min(count, text.size() - head) : 0;
 }
 
+/// The number of a line in its section; 0 where it has none.
+long number_of(std::string_view line) {
+  return std::atol(std::string(line.substr(letter_column + 1)).c_str());
+}
+
+/// Where the lines of a section belong, from 0: one after another, but for gaps that their numbers tell of:
+/// those of two lines that follow each other, or that of the last.
+std::vector<std::size_t> places_of(const std::vector<std::string_view>& lines) {
+  constexpr long widest_gap = 1000, widest_at_begin = 4;
+  std::vector<std::size_t> places;
+  long next = 1;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const long number = number_of(lines[i]), gap = number - next;
+    const bool is_sure = i + 1 == lines.size() || number_of(lines[i + 1]) == number + 1;
+    if (gap > 0 && gap <= (i == 0 ? widest_at_begin : widest_gap) && is_sure) next = number;
+    places.push_back(static_cast<std::size_t>(next++) - 1);
+  }
+  return places;
+}
+
 }  // namespace
 
 IgesRecords::IgesRecords(const std::string& content, char parameter_delimiter, char record_delimiter)
     : content_(content), parameter_delimiter_(parameter_delimiter), record_delimiter_(record_delimiter) {
+  std::vector<std::string_view> directory, parameters;
   for (std::size_t begin = 0; begin < content.size();) {
     const std::size_t end = std::min(content.find_first_of("\r\n", begin), content.size());
     const std::string_view line(content.data() + begin, end - begin);
     const char section = line.size() > letter_column ? line[letter_column] : ' ';
     if (section == 'S' || section == 'G') (head_ += line) += '\n';
-    if (section == 'D') read_directory_line(line);
-    if (section == 'P') read_parameter_line(line);
+    if (section == 'D') directory.push_back(line);
+    if (section == 'P') parameters.push_back(line);
     begin = end + 1;
   }
-  if (!begins_entry_) {  // its second line is lost
-    records_.pop_back();
-    lines_.pop_back();
-  }
+  read_directory(directory);
+  for (const std::string_view line : parameters) read_parameter_line(line);
 }
 
-void IgesRecords::read_directory_line(std::string_view line) {
-  const std::string text(line.substr(0, letter_column));
-  if (begins_entry_) {
-    records_.push_back({.line = static_cast<int>(2 * records_.size() + 1),
-                        .type = integer_field(text, 0),
-                        .matrix = integer_field(text, 6),
-                        .name = ""});
-    lines_.push_back({text, "", ""});
-  } else {
-    records_.back().form = integer_field(text, 4);
-    records_.back().name = name_of(text);
-    lines_.back().second = text;
+void IgesRecords::read_directory(const std::vector<std::string_view>& lines) {
+  const std::vector<std::size_t> places = places_of(lines);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    lines_.resize(places[i] / 2 + 1);
+    (places[i] % 2 == 0 ? lines_.back().first : lines_.back().second) = lines[i].substr(0, letter_column);
   }
-  begins_entry_ = !begins_entry_;
+  for (Lines& entry : lines_) {
+    const bool is_torn = entry.first.empty() || entry.second.empty();
+    const std::string& known = entry.first.empty() ? entry.second : entry.first;
+    const int type = known.empty() ? 0 : integer_field(known, 0);
+    for (std::string* text : {&entry.first, &entry.second}) text->resize(letter_column, ' ');
+    records_.push_back({.line = static_cast<int>(2 * records_.size() + 1),
+                        .type = type,
+                        .form = integer_field(entry.second, 4),
+                        .matrix = integer_field(entry.first, 6),
+                        .name = name_of(entry.second),
+                        .is_torn = is_torn});
+  }
 }
 
 void IgesRecords::read_parameter_line(std::string_view line) {

@@ -12,6 +12,7 @@ struct IgesRecord {
   int type = 0, form = 0;  ///< 0 where they are no numbers
   int matrix = 0;          ///< the line of its transformation, field 7
   std::string name;        ///< its label, with the subscript if that counts
+  bool is_torn = false;    ///< a line of its directory entry is lost
 };
 
 /// The entities of an IGES file before any kernel sees them, to be changed one by one: a file of which none
@@ -45,14 +46,14 @@ class IgesRecords {
     std::string first, second;  // of the directory, to the letter of the section
     std::string parameters;     // with the record delimiter
   };
-  void read_directory_line(std::string_view line);
+  void read_directory(const std::vector<std::string_view>& lines);
   void read_parameter_line(std::string_view line);
 
   std::string content_, head_;
   char parameter_delimiter_, record_delimiter_;
   std::vector<IgesRecord> records_;
   std::vector<Lines> lines_;
-  bool begins_entry_ = true, changed_ = false;
+  bool changed_ = false;
 };
 
 }  // namespace nurbeam

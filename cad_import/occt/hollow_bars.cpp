@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "cad_import/occt/loose_faces.h"
 #include "cad_import/report/length_unit.h"
 
 namespace nurbeam {
@@ -152,16 +153,20 @@ double HollowBar::size() const { return std::max(section.width, section.height) 
 
 std::vector<HollowBar> hollow_bars(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces) {
   std::vector<HollowBar> bars;
-  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+  const auto attempt = [&](const auto& add) {
     try {
       OCC_CATCH_SIGNALS
-      add_bars(solids.Current(), faces, bars);
-    } catch (const Standard_Failure&) {
-      continue;  // a solid that OpenCASCADE cannot evaluate is no bar; its edges are reported
-    } catch (const std::invalid_argument&) {
-      continue;  // so is one with coordinates that are no numbers
+      add();
+    } catch (const Standard_Failure&) {  // what OpenCASCADE cannot evaluate is no bar; its edges are reported
+    } catch (const std::invalid_argument&) {  // so is what has coordinates that are no numbers
     }
-  }
+  };
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next())
+    attempt([&] { add_bars(solids.Current(), faces, bars); });
+  attempt([&] {
+    const SewnFaces sewn = sewn_loose_faces(shape, faces);
+    if (!sewn.shape.IsNull()) add_bars(sewn.shape, sewn.faces, bars);
+  });
   return bars;
 }
 

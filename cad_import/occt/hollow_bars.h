@@ -30,7 +30,7 @@ struct HollowBar {
 };
 
 /// Those of a shape: prisms whose sections are an outline around holes that are a quarter of it or more, at
-/// least as long as they are wide. `faces`: of the shape.
+/// least as long as they are wide. Faces of no solid, as IGES has them, are sewn. `faces`: of the shape.
 std::vector<HollowBar> hollow_bars(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces);
 
 }  // namespace nurbeam

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+class TopoDS_Face;
 class TopoDS_Shape;
 
 namespace nurbeam {
@@ -29,6 +30,9 @@ struct PrismEdges {
   std::vector<PrismEdge> edges;
   std::map<int, PrismSide> sides;  ///< by the face
 };
+
+/// Whether a face is flat, or a cylinder.
+bool is_side_of_prism(const TopoDS_Face& face);
 
 /// Those of a solid, by their directions. `faces`: of the shape that it is a part of; they count them,
 /// from 1. Of more than 100 directions those that come first.

@@ -187,8 +187,16 @@ void tell_of_broken(const std::vector<BrokenInstance>& broken, ImportReport& rep
                    std::to_string(broken.size() - most_reported_failures) + " more instances were left out");
 }
 
+void tell_of_repeated(const std::vector<std::string>& repeated, ImportReport& report) {
+  if (repeated.empty()) return;
+  add_diagnostic(report, Severity::warning, repeated.front(),
+                 "left out: an instance before it has its number, and is taken; so in " +
+                     std::to_string(repeated.size()) + " case(s) in all; the file is damaged");
+}
+
 /// Reads the file, without the instances that the syntax of STEP does not allow, where there are such.
 void read_sound(STEPControl_Reader& reader, std::string content, ImportReport& report) {
+  tell_of_repeated(remove_repeated_instances(content), report);
   if (may_have_broken_numbers(content))
     tell_of_broken(remove_broken_instances(content, BrokenToken::number), report);
   try {

@@ -83,11 +83,11 @@ std::vector<RestatedPlace> restate_instances(const IGESData_IGESModel& model, do
   return places;
 }
 
-/// `unit`: [mm].
+/// `unit`: [mm]. Whether it can be read.
 template <class Arc>
-void restate_arc(const Handle(Arc) & arc, double unit, const std::string& repair, const Leniency& leniency,
+bool restate_arc(const Handle(Arc) & arc, double unit, const std::string& repair, const Leniency& leniency,
                  Remarks& remarks) {
-  remarks.attempt(
+  return remarks.attempt(
       arc,
       [&] {
         if (const double size = put_into_position(*arc, leniency); size > 0)
@@ -147,9 +147,11 @@ std::vector<RestatedPlace> restate_iges(const IGESData_IGESModel& model, Remarks
                   "the ends of an arc, at different distances from its centre, stay, and the centre moves "
                   "(of an almost whole circle the end moves)",
                   leniency, remarks);
-    if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i)))
-      restate_arc(conic, unit, "the ends of a conic arc stay, and the curve of its equation moves", leniency,
-                  remarks);
+    if (const auto conic = Handle(IGESGeom_ConicArc)::DownCast(model.Value(i));
+        !conic.IsNull() &&
+        !restate_arc(conic, unit, "the ends of a conic arc stay, and the curve of its equation moves",
+                     leniency, remarks))
+      make_harmless(*conic);
   }
   remarks.tell_repairs();
   note_data_points(model, remarks);

@@ -68,6 +68,10 @@ class SoundIges {
   }
 
   void check(std::size_t i) {
+    if (record(i).is_torn) {
+      warn(i, "damaged, and left out: a line of its directory entry is lost; export or copy it again");
+      return leave_out(i);
+    }
     if (record(i).type == null_entity) left_out_.insert(i);
     if (!kept_.contain(static_cast<int>(i))) {
       if (kept_.without.contains(static_cast<int>(i))) warn(i, crashed_on);

@@ -1,9 +1,13 @@
 #include "cad_import/step/broken_instances.h"
 
+#include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string_view>
+#include <utility>
 
 namespace nurbeam {
 namespace {
@@ -98,6 +102,55 @@ std::string label_of(std::string_view instance) {
   return label;
 }
 
+/// The statement that begins at a place of the text, with its ';'.
+std::string_view statement_at(std::string_view text, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < text.size() && text[end] != ';') {
+    const std::size_t behind = behind_quotation(text, end);
+    end = behind > end ? behind : end + 1;
+  }
+  return text.substr(begin, std::min(end + 1, text.size()) - begin);
+}
+
+/// "#62 = CARTESIAN_POINT(...)" of such a statement; "" of any other.
+std::string_view instance_in(std::string_view statement) {
+  const std::size_t start = statement.find_first_not_of(" \t\r\n");
+  if (start == std::string_view::npos || statement[start] != '#' || !statement.ends_with(';')) return {};
+  return statement.substr(start, statement.size() - start - 1);
+}
+
+/// Takes the instances out of the text for which `is_one`.
+template <class IsOne>
+void remove_instances(std::string& text, const IsOne& is_one) {
+  const std::string given = std::move(text);
+  text.clear();
+  for (std::size_t begin = 0; begin < given.size();) {
+    const std::string_view statement = statement_at(given, begin), instance = instance_in(statement);
+    begin += statement.size();
+    if (instance.empty() || !is_one(instance)) text += statement;
+  }
+}
+
+/// The number of an instance; -1 where it has none.
+int number_of(std::string_view instance) {
+  if (instance.empty()) return -1;
+  const std::size_t first = std::min(instance.find_first_not_of(" \t\r\n", 1), instance.size());
+  int number = -1;
+  std::from_chars(instance.data() + first, instance.data() + instance.size(), number);
+  return number;
+}
+
+bool has_repeated_numbers(std::string_view text) {
+  std::vector<int> numbers;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::string_view statement = statement_at(text, begin), instance = instance_in(statement);
+    begin += statement.size();
+    if (const int number = number_of(instance); number >= 0) numbers.push_back(number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return std::adjacent_find(numbers.begin(), numbers.end()) != numbers.end();
+}
+
 }  // namespace
 
 bool may_have_broken_numbers(const std::string& text) {
@@ -112,29 +165,25 @@ bool may_have_broken_numbers(const std::string& text) {
 
 std::vector<BrokenInstance> remove_broken_instances(std::string& text, BrokenToken wanted) {
   std::vector<BrokenInstance> broken;
-  const std::string given = std::move(text);
-  const std::string_view all = given;
-  text.clear();
-  for (std::size_t begin = 0; begin < all.size();) {
-    std::size_t end = begin;
-    while (end < all.size() && all[end] != ';') {
-      const std::size_t behind = behind_quotation(all, end);
-      end = behind > end ? behind : end + 1;
-    }
-    end = std::min(end + 1, all.size());
-    std::string_view statement = all.substr(begin, end - begin);
-    begin = end;
-    const std::size_t start = statement.find_first_not_of(" \t\r\n");
-    const bool is_instance =
-        start != std::string_view::npos && statement[start] == '#' && statement.ends_with(';');
-    const std::string_view instance =
-        is_instance ? statement.substr(start, statement.size() - start - 1) : "";
-    if (const auto token = broken_token(instance, wanted))
-      broken.push_back({label_of(instance), *token});
-    else
-      text += statement;
-  }
+  remove_instances(text, [&](std::string_view instance) {
+    const auto token = broken_token(instance, wanted);
+    if (token) broken.push_back({label_of(instance), *token});
+    return token.has_value();
+  });
   return broken;
+}
+
+std::vector<std::string> remove_repeated_instances(std::string& text) {
+  std::vector<std::string> repeated;
+  if (!has_repeated_numbers(text)) return repeated;
+  std::set<int> known;
+  remove_instances(text, [&](std::string_view instance) {
+    const int number = number_of(instance);
+    const bool is_known = number >= 0 && !known.insert(number).second;
+    if (is_known) repeated.push_back(label_of(instance));
+    return is_known;
+  });
+  return repeated;
 }
 
 }  // namespace nurbeam

@@ -19,6 +19,10 @@ enum class BrokenToken { any, number };
 /// told of as of any that is not there.
 std::vector<BrokenInstance> remove_broken_instances(std::string& text, BrokenToken wanted);
 
+/// Takes those instances of the data section out of the text whose number one before them has: OpenCASCADE
+/// may look for them without end. Returns how they are called, "#62 CARTESIAN_POINT".
+std::vector<std::string> remove_repeated_instances(std::string& text);
+
 /// Whether a number with two points may stand anywhere in the text, be it in a string.
 bool may_have_broken_numbers(const std::string& text);
 

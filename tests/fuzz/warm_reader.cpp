@@ -105,7 +105,10 @@ ImportReport report_of_end(Received received, int status, const std::string& fil
 void limit_processor_time(std::chrono::seconds time) {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
-  const rlim_t until = used.ru_utime.tv_sec + used.ru_stime.tv_sec + time.count() + 1;
+  constexpr rlim_t parts = 1'000'000;
+  const rlim_t microseconds = used.ru_utime.tv_usec + used.ru_stime.tv_usec;
+  const rlim_t begun = used.ru_utime.tv_sec + used.ru_stime.tv_sec + (microseconds + parts - 1) / parts;
+  const rlim_t until = begun + static_cast<rlim_t>(time.count());
   const rlimit cpu{until, RLIM_INFINITY};
   setrlimit(RLIMIT_CPU, &cpu);
 }
