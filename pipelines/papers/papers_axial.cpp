@@ -44,7 +44,7 @@ void write_example(Page& page, const Example& example, const Pace& pace) {
   for_each_of(runs.size(), [&](std::size_t i) {
     const bool fine = i == 2 * meshes.size();
     runs[i] = run(example.model(fine ? fine_elements : meshes[i / 2]),
-                  fine || i % 2 ? with_ends_and_mean() : ours(), pace);
+                  fine || i % 2 ? with_ends_and_mean() : ours(), pace, Kept::bodies);
   });
   std::vector<std::vector<std::string>> rows;
   for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {

@@ -27,7 +27,7 @@ void write_drift(Page& page) {
   for_each_of(runs.size(), [&](std::size_t i) {
     runs[i] = run(falling_beam_example().model(10),
                   with_papers_thresholds(in_form(i % 2 ? Form::virtual_work : Form::variational)),
-                  {.end = 0.14, .step = steps[i / 2], .every = 0.001, .rho_infinity = 1});
+                  {.end = 0.14, .step = steps[i / 2], .every = 0.001, .rho_infinity = 1}, Kept::bodies);
   });
   std::vector<std::vector<std::string>> rows(2);
   for (std::size_t form = 0; form < 2; ++form) {
@@ -57,10 +57,10 @@ void write_accuracy_of_forms(Page& page) {
   std::vector<Run> runs(2 * meshes.size() + 1);
   for_each_of(runs.size(), [&](std::size_t i) {
     if (i == 0)
-      runs[i] = run(suspended_beam_example().model(96), ours(), pace);
+      runs[i] = run(suspended_beam_example().model(96), ours(), pace, Kept::bodies);
     else
       runs[i] = run(suspended_beam_example().model(meshes[(i - 1) / 2]),
-                    in_form(i % 2 ? Form::variational : Form::virtual_work), pace);
+                    in_form(i % 2 ? Form::variational : Form::virtual_work), pace, Kept::bodies);
   });
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < meshes.size(); ++i)
@@ -84,7 +84,7 @@ void write_leaving(Page& page) {
   };
   std::vector<Run> runs(2 * meshes.size());
   for_each_of(runs.size(), [&](std::size_t i) {
-    runs[i] = run(falling_beam_example().model(meshes[i / 2]), method(i), pace);
+    runs[i] = run(falling_beam_example().model(meshes[i / 2]), method(i), pace, Kept::bodies);
   });
   std::vector<std::vector<std::string>> rows;
   int within = 0;

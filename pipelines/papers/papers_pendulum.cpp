@@ -1,5 +1,6 @@
 // Long because it is one page, figure by figure.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -185,10 +186,16 @@ class Study {
       plot.lines.push_back(marks_of_reference(&Reference::AB));
       std::ostringstream used;
       double six = 0;  // what six elements are from the fine run
-      for (int n : {1, 2, 4, 6, 8}) {
+      constexpr std::array counts{1, 2, 4, 6, 8};
+      std::array<PendulumMotion, counts.size()> runs;
+      papers::for_each_of(counts.size(), [&](std::size_t i) {
+        runs[i] = pendulum_motion({.elements = counts[i], .ancf = ancf}, ExplicitRungeKutta{},
+                                  stable_step(counts[i]), 200);
+      });
+      for (std::size_t at = 0; at < counts.size(); ++at) {
+        const int n = counts[at];
         const double h = stable_step(n);
-        const PendulumMotion run =
-            pendulum_motion({.elements = n, .ancf = ancf}, ExplicitRungeKutta{}, h, 200);
+        const PendulumMotion& run = runs[at];
         plot.lines.push_back(line(std::to_string(n) + (n == 1 ? " element" : " elements"), run.t, run.AB));
         for (std::size_t i = 0; n == 6 && i < fine_.AB.size(); ++i)
           six = std::max(six, std::abs(run.AB[2 * i] - fine_.AB[i]));
@@ -344,6 +351,14 @@ class Study {
     constexpr double h = 5e-4;
     Plot error{"Two elements: error over their division", "k [m]", "largest difference in |AB| [m]", {}};
     error.log_y = true;
+    constexpr std::array divisions{-0.4, -0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4};
+    std::array<std::array<std::array<PendulumMotion, divisions.size()>, 3>, 2> all;
+    papers::for_each_of(2 * 3 * divisions.size(), [&](std::size_t i) {
+      const std::size_t at = i % divisions.size(), c = i / divisions.size() % 3,
+                        metric = i / divisions.size() / 3;
+      all[metric][c][at] = pendulum_motion(
+          {.arc = arcs[c], .elements = 2, .grading = divisions[at], .metric = metric == 1}, method, h);
+    });
     for (const bool metric : {false, true})
       for (int c = 0; c < 3; ++c) {
         Plot plot{std::string(names[c]) + ", two elements, " + (metric ? "with" : "without") + " metric",
@@ -353,9 +368,9 @@ class Study {
         plot.lines.push_back(line("64 elements, metric", fine_.t, fine_.AB, PlotLine::Style::dashed));
         PlotLine errors = line(std::string(names[c]) + (metric ? ", with" : ", without"), {}, {},
                                metric ? PlotLine::Style::line_and_marks : PlotLine::Style::dashed);
-        for (double k : {-0.4, -0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4}) {
-          const PendulumMotion run =
-              pendulum_motion({.arc = arcs[c], .elements = 2, .grading = k, .metric = metric}, method, h);
+        for (std::size_t at = 0; at < divisions.size(); ++at) {
+          const double k = divisions[at];
+          const PendulumMotion& run = all[metric ? 1 : 0][c][at];
           if (std::abs(std::remainder(k, 0.2)) < 1e-9)
             plot.lines.push_back(line("k = " + plain(std::abs(k) < 1e-9 ? 0 : k) + " m", run.t, run.AB));
           const double off = largest_difference(run, fine_).AB;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "pipelines/papers/papers.h"
+#include "pipelines/papers/papers_run.h"
 #include "pipelines/papers/printed_pendulum.h"
 #include "pipelines/verification/references.h"
 
@@ -64,10 +65,12 @@ struct Row {
 
 // The differences of one row from the fine run, mesh by mesh.
 std::vector<PrintedMotion> motions_of(const Row& row, PrintedCurvature curvature) {
-  std::vector<PrintedMotion> motions;
-  for (const int n : meshes)
-    motions.push_back(printed_pendulum_motion(
-        {.arc = row.arc, .elements = n, .curvature = curvature, .step = step_of(n), .ancf = row.ancf}));
+  std::vector<PrintedMotion> motions(meshes.size());
+  for_each_of(motions.size(), [&](std::size_t i) {
+    const int n = meshes[i];
+    motions[i] = printed_pendulum_motion(
+        {.arc = row.arc, .elements = n, .curvature = curvature, .step = step_of(n), .ancf = row.ancf});
+  });
   return motions;
 }
 

@@ -60,7 +60,7 @@ double Run::leave_time() const {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-Run run(BeamModel model, const Method& method, const Pace& pace) {
+Run run(BeamModel model, const Method& method, const Pace& pace, Kept kept) {
   for (Beam& beam : model.beams) {
     beam.weights = method.weights;
     beam.merge = method.merge;
@@ -79,12 +79,18 @@ Run run(BeamModel model, const Method& method, const Pace& pace) {
   Run result;
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& frame) { result.frames.push_back(frame); };
-  observer.mesh_changed = [&](const RunEvent& event, const std::vector<BeamRecord>& before,
-                              const std::vector<BeamRecord>& after) {
-    result.changes.push_back({event, before[0], after[0]});
-  };
+  if (kept == Kept::shapes)
+    observer.mesh_changed = [&](const RunEvent& event, const std::vector<BeamRecord>& before,
+                                const std::vector<BeamRecord>& after) {
+      result.changes.push_back({event, before[0], after[0]});
+    };
+  else
+    observer.contents = {.beams = false, .probes = false, .reactions = false, .measures = false};
   const std::vector<ProbePlace> end{{0, model.beams[0].curve.length()}};
   result.report = simulate(model, end, options, observer);
+  if (kept == Kept::bodies)
+    for (const RunEvent& event : result.report.events)
+      if (!is_booked(event.kind)) result.changes.push_back({event, {}, {}});
   return result;
 }
 

@@ -59,8 +59,12 @@ struct Run {
   double leave_time() const;  ///< of the body; not a number if it stays [s]
 };
 
+/// What a run keeps: beams and the probe in frames, and before and after changes of the mesh, take a third of
+/// its time.
+enum class Kept { shapes, bodies };
+
 /// Runs a model by a method; frames hold a probe at the beam's end.
-Run run(BeamModel model, const Method& method, const Pace& pace);
+Run run(BeamModel model, const Method& method, const Pace& pace, Kept kept = Kept::shapes);
 
 /// Calls work(0), ..., work(count - 1), two at a time; the first exception is rethrown.
 void for_each_of(std::size_t count, const std::function<void(std::size_t)>& work);

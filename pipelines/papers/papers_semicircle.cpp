@@ -28,7 +28,8 @@ bool write_state(Page& page, bool straight) {
     const std::size_t step = i / ways, way = i % ways;
     const bool paper = way == counts.size();
     all[step][way] = run(example.model(paper ? counts.back() : counts[way]), paper ? paper_rule() : ours(),
-                         {.end = pace.end, .step = steps[step], .every = pace.every});
+                         {.end = pace.end, .step = steps[step], .every = pace.every},
+                         step == 0 ? Kept::shapes : Kept::bodies);
   });
   const std::vector<Run>& runs = all.front();
   const std::vector<references::Place> places = references::semicircle(straight);

@@ -64,6 +64,18 @@ def build_backend(tmp_path_factory):
     return directory
 
 
+EVERYWHERE = re.compile(r"(linux-vdso|ld-linux|lib(c|m|dl|rt|pthread|util|resolv|stdc\+\+|gcc_s)\.so)")
+
+
+def libraries_outside(file, package):
+    """What a file of a wheel would take from the system, besides the C library and the compiler's."""
+    if file.parent.name == "lib":  # found by what loads it
+        needed = re.findall(r"NEEDED +(\S+)", subprocess.run(["objdump", "-p", file], capture_output=True, text=True).stdout)
+        return [name for name in needed if not EVERYWHERE.search(name) and not (package / "lib" / name).exists()]
+    lines = subprocess.run(["ldd", file], capture_output=True, text=True, check=True).stdout.splitlines()
+    return [line.strip() for line in lines if not EVERYWHERE.search(line) and str(package) not in line]
+
+
 @pytest.mark.skipif(cached("CMAKE_BUILD_TYPE") != "Release", reason="a wheel is compiled as the preset release is")
 def test_pip_makes_a_wheel_that_is_whole(tmp_path, build_backend):
     # Compiled beside the build and by its compiler: ccache has it all.
@@ -75,6 +87,10 @@ def test_pip_makes_a_wheel_that_is_whole(tmp_path, build_backend):
            f"--config-settings=build-dir={BUILD.with_name(BUILD.name + '_wheel')}"]
     made = subprocess.run([*pip, ROOT], capture_output=True, text=True, env={**environment, "PYTHONPATH": str(build_backend)})
     assert made.returncode == 0, made.stdout + made.stderr
+    package = next((tmp_path / "venv").glob("lib/python*/site-packages/nurbeam"))
+    for file in [next(package.glob("_core*.so")), package / "nurbeam-cad", package / "nurbeam-study", *(package / "lib").iterdir()]:
+        outside = libraries_outside(file, package)
+        assert not outside, f"{file.name} needs what the wheel does not carry: {outside}"
     code = TRIED.format(prefix=str(tmp_path / "venv"), file=str(ROOT / "samples/zipline/cable.step"))
     code += WHEEL_TRIED
     done = subprocess.run([python, "-c", code], capture_output=True, text=True, env=environment, cwd=tmp_path)

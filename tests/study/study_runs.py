@@ -148,17 +148,22 @@ def a_killed_worker_costs_its_variant():
     slow["analysis"].update(end_time=30, step=1e-4)
     study = write(scratch / "worker", {**STUDY, "plan": {"list": [["100 MPa", 0.1], ["100 MPa", 0.0]]}}, slow)
     out = scratch / "worker/out"
-    process = subprocess.Popen([nurbeam, "study", study, "--out", out, "--jobs", "2", "--quiet"])
+    process = subprocess.Popen([nurbeam, "study", study, "--out", out, "--jobs", "2", "--quiet"], stderr=subprocess.PIPE, text=True)
     deadline = time.time() + 60
     while len(workers_of(process)) < 2 and time.time() < deadline:
         time.sleep(0.05)
     time.sleep(0.5)
     kill_a_worker(process)
     assert process.wait() == 0
+    assert "1 of 2 variants crashed" in process.stderr.read()
     rows = table(out)
     status = rows[0].index("status")
     assert sorted(row[status] for row in rows[1:]) == ["crashed", "done"], rows
     assert any("Killed" in row[-1] for row in rows)
+    # The machine ended it, not the variant: it runs again.
+    process = subprocess.run([nurbeam, "study", study, "--out", out, "--quiet", "--resume"], capture_output=True, text=True)
+    assert process.returncode == 0 and "crashed" not in process.stderr, process.stderr
+    assert [row[status] for row in table(out)[1:]] == ["done", "done"]
 
 
 def time_limits_end_variants():

@@ -36,7 +36,7 @@ double first_step(const BeamModel& model, double end_time) {
       quickest = std::min(quickest, std::sqrt(beam.properties.mass_per_length * length /
                                               beam.properties.stiffness_of_length(length)));
   }
-  return std::isinf(quickest) ? end_time / 1e5 : std::min(quickest / 400, end_time / 100);
+  return std::isinf(quickest) ? end_time / 1e5 : std::min(quickest / 2000, end_time / 100);
 }
 
 }  // namespace nurbeam
