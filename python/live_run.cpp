@@ -63,6 +63,25 @@ void set_value(Force& force, std::size_t number, const Eigen::Vector3d& value) {
       force);
 }
 
+bool has_value(const Force& force, const Eigen::Vector3d& value) {
+  return std::visit(
+      [&](const auto& load) {
+        if constexpr (
+            requires { load.value == value; })
+          return load.value == value;
+        else
+          return false;
+      },
+      force);
+}
+
+// Whether a load of the case has this value, on every beam that it is on.
+bool has_value(const BuiltModel& built, std::size_t number, const Eigen::Vector3d& value,
+               const std::vector<Force>& forces) {
+  return std::ranges::all_of(
+      built.loads.at(number), [&](int i) { return has_value(forces.at(i), value); });
+}
+
 // Gives a load of the case another value, on every beam that it is on.
 void set_load(const BuiltModel& built, std::size_t number, const Eigen::Vector3d& value,
               std::vector<Force>& forces) {
@@ -251,6 +270,8 @@ void LiveRun::change_load(std::size_t number, const Eigen::Vector3d& value) {
   const WithoutLock others_go_on;
   const Moment moment(*this);
   const Eigen::Vector3d local = is_moment ? frame.moment_to_local(value) : frame.direction_to_local(value);
+  // A restart for nothing would change the motion by its round-off, and take its time.
+  if (has_value(of_->built(), number, local, simulation_.system().model().forces)) return;
   const bool goes_on = simulation_.change_forces(
       [&](std::vector<Force>& forces) { set_load(of_->built(), number, local, forces); });
   std::erase_if(changed_loads_,

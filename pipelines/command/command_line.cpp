@@ -98,7 +98,9 @@ class Parser {
       throw UsageError("no " + first_name(command_.positional) + " is given" +
                        files_here(command_.positional));
     if (positional_.size() < command_.min_positional || positional_.size() > command_.max_positional)
-      throw UsageError("has " + std::to_string(positional_.size()) + " argument(s) besides its options");
+      throw UsageError("has " + std::to_string(positional_.size()) +
+                       (positional_.size() == 1 ? " argument" : " arguments") +
+                       " besides its options; expected " + command_.positional);
     return arguments;
   }
 

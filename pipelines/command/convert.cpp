@@ -180,16 +180,21 @@ Lost lost_of(const NamedCurve& curve, CadFormat format) {
 /// In one line, how many names, layers, parts and colours are not written.
 void tell_what_is_lost(CadFormat format, const std::filesystem::path& to, CurvesUnderWay& way) {
   std::string all;
+  bool several = false;  // the last number
   for (const auto& [what, member] : {std::pair("names", &Lost::name), std::pair("layers", &Lost::layer),
                                      std::pair("parts", &Lost::part), std::pair("colours", &Lost::colour)}) {
     const auto number =
         std::count_if(way.curves.begin(), way.curves.end(),
                       [&, of = member](const NamedCurve& curve) { return lost_of(curve, format).*of; });
-    if (number > 0) all += (all.empty() ? "" : ", ") + std::string(what) + " of " + std::to_string(number);
+    if (number > 0) {
+      all += (all.empty() ? "" : ", ") + std::string(what) + " of " + std::to_string(number);
+      several = number > 1;
+    }
   }
   if (!all.empty())
     way.say(Severity::note, to.string(),
-            "not written, as its format has no place for them: " + all + " curve(s)");
+            "is written without the " + all + (several ? " curves" : " curve") +
+                ", which its format has no place for");
 }
 
 LengthUnit unit_of(const ImportReport& report, CadFormat format) {

@@ -253,8 +253,13 @@ class Curve:
         return Curve._of(_core.joined([self._nurbs, *(other._nurbs for other in others)]), self.name)
 
     def split_at(self, parameter: float | Sequence[float]) -> list[Curve]:
-        """Its pieces between these parameters; each keeps the parameters of the curve."""
+        """Its pieces between these parameters; each keeps the parameters of the curve. ValueError for one that is not
+        between the first and the last of the curve."""
         at = [float(each) for each in np.atleast_1d(np.asarray(parameter, dtype=float))]
+        first, last = float(self.knots[0]), float(self.knots[-1])
+        for each in at:
+            if not first < each < last:
+                raise ValueError(f"cannot be split at {each:.6g}; the parameters of the curve lie between {first:.6g} and {last:.6g}")
         return [Curve._of(piece, self.name) for piece in self._nurbs.split_at(at)]
 
     def transformed(self, matrix: npt.ArrayLike) -> Curve:

@@ -61,6 +61,10 @@ class MissingCase(CaseError, FileNotFoundError):
     """A case file that is not there."""
 
 
+class MissingResults(Error, FileNotFoundError):
+    """There are no results."""
+
+
 class MissingCadFile(CadError, FileNotFoundError):
     """A CAD file that is not there."""
 

@@ -646,7 +646,7 @@ class Model:
     def _repr_html_(self) -> str:
         """In a notebook: the model as drawn, in the 3-D view of the report page."""
         built = self._built(self._or_static({}))[0]
-        return Results._of(_core.drawn(built), {"status": "done"}, built.summary())._repr_html_()
+        return Results._of(_core.drawn(built), {"status": "drawn"}, built.summary())._repr_html_()
 
     def __repr__(self) -> str:
         parts = [f"{len(v)} {k}" for k, v in self.case.items() if isinstance(v, list) and v]

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from . import _core
 from .checked import reduced
 from .curves import Curve, write
-from .errors import ByName, Error, findings_of, tell, unknown
+from .errors import ByName, Error, MissingResults, findings_of, tell, unknown
 from .pages import page_of
 
 if TYPE_CHECKING:
@@ -125,6 +125,8 @@ class RunReport(Dict[str, Any]):
     def __call__(self, file: str | os.PathLike[str]) -> None:
         if self._page is None:
             raise Error("this report is not that of results; ask results.report")
+        if not os.fspath(file).lower().endswith((".html", ".htm")):
+            raise ValueError(f"{os.fspath(file)}: the report is a page; expected a name that ends in .html")
         with open(file, "w", encoding="utf-8") as stream:
             stream.write(self._page())
 
@@ -301,13 +303,15 @@ class Results(Sequence[Snapshot]):
     """The results of a run: a sequence of its snapshots, in memory.
 
     `Results("directory")` reads those that a run has left there, also while it goes on; `model.run(...)` returns its own.
-    Error where there are none.
+    Error where there are none, also a FileNotFoundError where there is no such directory.
     """
 
     def __init__(self, directory: str | os.PathLike[str]):
         self.directory: Path | None = Path(directory)
         """Where they stand; None of a run that has written nothing."""
         summary = self.directory / "run.json"
+        if not self.directory.is_dir():
+            raise MissingResults(f"{self.directory}: there is no such directory")
         try:
             self._recording = _core.read_results(os.fspath(directory))
             report = json.loads(_core.checked_json(os.fspath(summary))) if summary.exists() else {}

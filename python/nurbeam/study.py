@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import CaseError, Error, Finding, tell, unknown
+from .errors import CaseError, Error, Finding, MissingCase, tell, unknown
 from .model import Model, _json, _not_finite, _rename_files
 from .results import Results, RunError
 
@@ -159,12 +159,15 @@ def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLi
 
     `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one, which is there as long as
     the Study); `jobs` the number of variants that run at a time, one for each core when omitted; with `resume` the variants
-    that are there already do not run again. Raises CaseError where the study is wrong, ValueError where `jobs` is, and
+    that are there already do not run again. Raises CaseError where the study is wrong, also a FileNotFoundError where it is
+    not there, ValueError where `jobs` is, and
     RunError where the study has no answer or cannot be written.
     """
     at_a_time = _jobs(jobs)
     if not isinstance(what, Mapping):
         file = Path(what)
+        if not file.exists():
+            raise MissingCase([Finding("error", os.fspath(file), "there is no such file")])
         return _run(file, Path(out) if out is not None else Path(f"{file.stem}_study"), at_a_time, resume)
     described = _described(what)
     scratch = Path(tempfile.mkdtemp(prefix="nurbeam_study_"))

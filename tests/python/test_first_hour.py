@@ -60,6 +60,9 @@ def test_curves_are_joined_split_moved_and_measured():
         a.transformed(np.eye(2))
     with pytest.raises(ValueError, match="not on the curve"):
         a.parameter_at(1.5)
+    for beyond in (0, 7):
+        with pytest.raises(ValueError, match="lie between 0 and 1"):
+            a.split_at(beyond)
 
 
 def test_curves_go_to_json_and_back():
@@ -125,6 +128,14 @@ def test_the_report_page_goes_into_a_file(tmp_path):
     assert (tmp_path / "x.html").read_bytes() == (tmp_path / "out" / "report.html").read_bytes()
     assert results.report["status"] == "done"
     assert results.extremes["b.displacement.max"].value > 7e-5
+    with pytest.raises(ValueError, match="html"):
+        results.report(tmp_path / "x.pdf")
+
+
+def test_what_is_not_there_is_no_file(tmp_path):
+    for ask in (lambda: nb.Results(tmp_path / "none"), lambda: nb.study(tmp_path / "none.json")):
+        with pytest.raises(FileNotFoundError, match="none"):
+            ask()
 
 
 def test_deflections_are_shown_larger():
@@ -142,7 +153,8 @@ def test_results_in_memory_have_a_page(tmp_path):
     assert "displacement.max" in page and "<title>model</title>" in page and "{{data}}" not in page
     shown = results._repr_html_()
     assert shown.startswith("<iframe srcdoc=") and shown.count('"') == 4
-    assert bar()._repr_html_().startswith("<iframe")
+    drawn = bar()._repr_html_()
+    assert drawn.startswith("<iframe") and "&quot;status&quot;:&quot;drawn&quot;" in drawn.replace(" ", "")
     assert '"name":"b","curve"' in page
 
 

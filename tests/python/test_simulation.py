@@ -103,6 +103,13 @@ def test_a_load_changed_between_steps_acts_from_then_on():
     results = simulation.run()
     assert np.abs(results[-1].beams["rod"].nodes[:, 1]).max() < 1e-12
 
+    # The value that it has changes nothing.
+    simulation = model.simulate(**RUN)
+    while simulation.step():
+        simulation.set_load(load, [0, -1, 0])
+    same = simulation.run()
+    assert np.array_equal(same.histories["rod.displacement.max"], model.run(**RUN).histories["rod.displacement.max"])
+
     # Doubled at 25 ms: until then the same motion, afterwards another one; and the energy is kept.
     simulation = model.simulate(**RUN)
     simulation.run_until(0.025)

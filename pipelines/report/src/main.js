@@ -64,6 +64,7 @@ function show_numbers(frame) {
   $('element-count').textContent = `${elements} elements`;
 }
 
+const is_drawing = run?.status === 'drawn';  // of a model that has not run
 const duration = time[time.length - 1] - time[0];
 const time_decimals = is_static ? 0
   : Math.min(9, Math.max(0, Math.ceil(-Math.log10(duration / (time.length - 1)) - 1e-9)));
@@ -74,11 +75,11 @@ function set_header() {
     return;
   }
   const done = run.status === 'done';
-  $('status').textContent = done ? 'done' : 'ended early';
-  $('status').classList.toggle('early', !done);
+  $('status').textContent = done ? 'done' : is_drawing ? 'as drawn' : 'ended early';
+  $('status').classList.toggle('early', !done && !is_drawing);
   $('status').title = run.status;
   const warnings = run.diagnostics.filter(({ severity }) => severity !== 'note').length;
-  const facts = [has_modes ? `${modes_of(run).length} modes` : is_static ? 'static equilibrium'
+  const facts = [is_drawing ? 'nothing is computed yet' : has_modes ? `${modes_of(run).length} modes` : is_static ? 'static equilibrium'
     : is_load_steps ? `static equilibrium, loads times ${number(time[0])} to ${number(time[time.length - 1])}` : `${number(time[0])} to ${number(time[time.length - 1])} s`,
     is_static ? null : `${time.length} frames`,
     warnings ? `${warnings} warning${warnings > 1 ? 's' : ''}` : null, `nurbeam ${run.nurbeam}`];
@@ -87,7 +88,7 @@ function set_header() {
 
 function set_notes() {
   const notes = [];
-  if (run && run.status !== 'done') {
+  if (run && run.status !== 'done' && !is_drawing) {
     notes.push(`The run ended early: ${run.status}`);
   }
   if (data.stored_frames > time.length) {
@@ -101,6 +102,9 @@ function set_notes() {
 function first_field(fields) {
   const of = (...names) => names.map((name) => fields.findIndex((field) => field.name === name && (field.min !== 0 || field.max !== 0)))
     .find((i) => i >= 0) ?? 0;
+  if (is_drawing) {
+    return of('curvature');
+  }
   return (is_static && !has_modes) || is_load_steps ? of('stress', 'bending moment', 'axial force') : of('speed');
 }
 
@@ -285,7 +289,7 @@ function start_plots() {
 }
 
 function start_along() {
-  if (has_nothing_along) {
+  if (has_nothing_along || is_drawing) {
     $('along').closest('section').hidden = true;
     return;
   }
@@ -314,6 +318,11 @@ start_exaggeration(data, view, $, is_static || is_load_steps);
 start_along();
 start_plots();
 fill_tables();
+if (is_drawing) {
+  for (const id of ['plots', 'extremes', 'balance', 'events', 'run']) {
+    $(id).closest('section').hidden = true;
+  }
+}
 if (!has_modes) {
   show();
 }

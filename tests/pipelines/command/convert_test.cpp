@@ -105,8 +105,8 @@ TEST_F(Convert, LayersAndColoursAreKeptOrToldAsLost) {
   for (const auto& [name, lost] :
        std::vector<std::pair<std::string, std::string>>{{"c.step", ""},
                                                         {"c.json", ""},
-                                                        {"c.dxf", "names of 2 curve(s)"},
-                                                        {"c.igs", "layers of 1 curve(s)"}}) {
+                                                        {"c.dxf", "written without the names of 2 curves"},
+                                                        {"c.igs", "written without the layers of 1 curve,"}}) {
     const Answer answer = answer_to({"convert", source, file(name)});
     ASSERT_EQ(answer.code, 0) << answer.err;
     EXPECT_EQ(answer.err.empty(), lost.empty()) << answer.err;
@@ -120,7 +120,7 @@ TEST_F(Convert, LayersAndColoursAreKeptOrToldAsLost) {
     EXPECT_EQ(back[1].layer, "7") << name;
   }
   const Answer brep = answer_to({"convert", source, file("c.brep")});
-  EXPECT_NE(brep.err.find("names of 3, layers of 2, colours of 2 curve(s)"), std::string::npos) << brep.err;
+  EXPECT_NE(brep.err.find("names of 3, layers of 2, colours of 2 curves"), std::string::npos) << brep.err;
   EXPECT_EQ(std::count(brep.err.begin(), brep.err.end(), '\n'), 1) << brep.err;
   ASSERT_EQ(answer_to({"convert", source, file("c.svg")}).code, 0);
   EXPECT_NE(content_of(file("c.svg")).find("stroke=\"#ff8001\""), std::string::npos);
