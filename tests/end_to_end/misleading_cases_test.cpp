@@ -170,7 +170,9 @@ TEST(MisleadingCases, AMergeThatCostsTooMuchAsksForMoreElements) {
   const CaseRun refused = run_misleading_case("b4_helix_light.json");
   EXPECT_EQ(refused.code, 3);
   EXPECT_TRUE(refused.says("more than a thousandth of what moves; \"m\" is at s = ")) << refused.messages;
-  EXPECT_TRUE(refused.says("give \"slope\": \"discontinuous\", else take more elements or \"carried_as\": \"point\"")) << refused.messages;
+  EXPECT_TRUE(
+      refused.says("give \"slope\": \"discontinuous\", else take more elements or \"carried_as\": \"point\""))
+      << refused.messages;
   const CaseRun as_point =
       run_misleading_case("b4_helix_light.json", {"sliding_joints[0].carried_as=\"point\""});
   EXPECT_EQ(as_point.code, 0) << as_point.messages;

@@ -102,11 +102,11 @@ TEST_F(Convert, LayersAndColoursAreKeptOrToldAsLost) {
     {"name": "rail", "layer": "7", "colour": "#00ff00", "degree": 2, "knots": [0, 0, 0, 1, 1, 1],
      "control_points": [[0, 0], [1, 0], [1, 2]]},
     {"name": "plain", "degree": 1, "knots": [0, 0, 1, 1], "control_points": [[3, 0], [1, 0]]}]})");
-  for (const auto& [name, lost] :
-       std::vector<std::pair<std::string, std::string>>{{"c.step", ""},
-                                                        {"c.json", ""},
-                                                        {"c.dxf", "written without the names of 2 curves"},
-                                                        {"c.igs", "written without the layers of 1 curve,"}}) {
+  for (const auto& [name, lost] : std::vector<std::pair<std::string, std::string>>{
+           {"c.step", ""},
+           {"c.json", ""},
+           {"c.dxf", "written without the names of 2 curves"},
+           {"c.igs", "written without the layers of 1 curve,"}}) {
     const Answer answer = answer_to({"convert", source, file(name)});
     ASSERT_EQ(answer.code, 0) << answer.err;
     EXPECT_EQ(answer.err.empty(), lost.empty()) << answer.err;
