@@ -10,5 +10,7 @@ endif()
 file(MAKE_DIRECTORY "${CMAKE_INSTALL_PREFIX}/${folder}/lib")
 foreach(library IN LISTS found late)
   cmake_path(GET library FILENAME name)
-  file(COPY_FILE "${library}" "${CMAKE_INSTALL_PREFIX}/${folder}/lib/${name}" ONLY_IF_DIFFERENT)
+  set(carried "${CMAKE_INSTALL_PREFIX}/${folder}/lib/${name}")
+  file(COPY_FILE "${library}" "${carried}")
+  file(RPATH_REMOVE FILE "${carried}")  # one of its own would lead to the libraries of this system
 endforeach()
