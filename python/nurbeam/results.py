@@ -311,7 +311,7 @@ class Results(Sequence[Snapshot]):
         """Where they stand; None of a run that has written nothing."""
         summary = self.directory / "run.json"
         if not self.directory.is_dir():
-            raise MissingResults(f"{self.directory}: there is no such directory")
+            raise MissingResults(f"{self.directory}: does not exist")
         try:
             self._recording = _core.read_results(os.fspath(directory))
             report = json.loads(_core.checked_json(os.fspath(summary))) if summary.exists() else {}
