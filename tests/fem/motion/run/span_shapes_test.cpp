@@ -76,5 +76,38 @@ TEST(SpanShapes, OfABentBeamHaveItsCurvature) {
   EXPECT_NEAR(found.stress, radius * c, 1e-4 * radius * c) << "the strain is a part of 10^4 of it";
 }
 
+// Where a place moves along the drawing with its nodes on it, nothing is strained or bent.
+TEST(SpanShapes, BesideAPlaceThatMovesAreThoseOfItsPlace) {
+  ModelBuilder builder(2);
+  builder.add_beam(ReferenceCurve({line_cubic({0, 0, 0}, {2, 0, 0})}, 2), BeamProperties(1e5, 2, 1),
+                   {.elements = 4});
+  builder.clamp(0, 0);
+  BeamModel model = builder.build();
+  model.bodies.push_back({.name = "body", .mass = 1});
+  Rider rider{};
+  rider.s = 0.7;
+  model.riders.push_back(rider);
+  const BeamSystem system(model);
+  State state = drawn_state(system);
+  const Beam& beam = system.model().beams[0];
+  SpanShapes shapes(beam, system.mesh(), 0, state);
+  for (const double s : {0.7, 0.72, 0.9, 0.6}) {
+    bool moves = false;
+    for (const MeshNode& node : system.mesh().nodes[0]) {
+      if (node.place < 0) continue;
+      moves = true;
+      state.q[node.place] = s;
+      state.q.segment<2>(node.r) = Eigen::Vector2d(s, 0);
+    }
+    ASSERT_TRUE(moves);
+    const ShapeExtremes found = shapes.extremes<2>(beam, state, 0.1);
+    EXPECT_NEAR(found.tension, 0, 1e-12) << s;
+    EXPECT_NEAR(found.compression, 0, 1e-12) << s;
+    EXPECT_NEAR(found.bending, 0, 1e-5) << s << ": the root of round-off";
+  }
+  state.q[system.mesh().nodes[0].back().r] = 2.2;  // 20 % in the last of four spans
+  EXPECT_GT(shapes.extremes<2>(beam, state, 0.1).tension, 0.2);
+}
+
 }  // namespace
 }  // namespace nurbeam
