@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "nurbs/gauss_panels.h"
@@ -11,6 +13,8 @@ class Speed {
  public:
   explicit Speed(const RationalCubic& cubic);
   double operator()(double u) const;
+  /// The speed and its first and second derivative by u.
+  std::array<double, 3> derivatives(double u) const;
   /// Whether it is the same everywhere, to round-off: a straight line in even steps.
   bool uniform() const { return uniform_; }
 
@@ -24,7 +28,8 @@ class Speed {
 double length(const RationalCubic& cubic);
 
 /// Arc length s(u) of a rational cubic on [0,1] and its inverse, both to about 1e-14 of the length
-/// (adaptive Gauss panels; Newton on the speed for the inverse; subdivision paper Eqs. 12-16).
+/// (adaptive Gauss panels, and for the inverse the polynomials of degree 7 on them that have its value and
+/// three derivatives at both ends; subdivision paper Eqs. 12-16).
 class ArcLengthMap {
  public:
   /// Throws std::invalid_argument when the speed |r'(u)| vanishes on [0,1] (the value and place are named).
@@ -37,9 +42,18 @@ class ArcLengthMap {
   double parameter(double s) const;
 
  private:
+  // u(s) on one panel: the coefficients of u - u(start) by powers of t = (s - start)/length.
+  struct Inverse {
+    std::array<double, 7> coefficients;
+    bool exact;  // to round-off; else it is a first guess
+    double operator()(double t) const;
+  };
+  Inverse inverse_on(std::size_t panel) const;
+  double by_newton(std::size_t panel, double from_start) const;
+
   Speed speed_;
-  Panels panels_;                     // of the speed: breaks in u, integrals in s
-  std::vector<double> break_speeds_;  // at the breaks of the panels
+  Panels panels_;                  // of the speed: breaks in u, integrals in s
+  std::vector<Inverse> inverses_;  // on the panels; none where the speed is uniform
 };
 
 }  // namespace nurbeam

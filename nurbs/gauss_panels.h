@@ -24,14 +24,6 @@ double gauss(const Function& f, double a, double b) {
   return half * sum;
 }
 
-/// The same by the rule of 3 points: exact up to degree 5.
-template <typename Function>
-double gauss_of_3(const Function& f, double a, double b) {
-  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
-  const double x = 0.77459666924148337704 * half;
-  return half * (8 * f(middle) + 5 * (f(middle - x) + f(middle + x))) / 9;
-}
-
 /// The same by the rule of 5 points: exact up to degree 9.
 template <typename Function>
 double gauss_of_5(const Function& f, double a, double b) {

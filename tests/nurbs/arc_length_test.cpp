@@ -82,6 +82,22 @@ TEST(ArcLengthTest, ItGrowsAtTheSpeed) {
   }
 }
 
+TEST(ArcLengthTest, TheDerivativesOfTheSpeedAreThoseOfItsDifferences) {
+  Generator generator(23);
+  for (int i = 0; i < 500; ++i) {
+    const RationalCubic cubic = random_cubic(generator);
+    const Speed speed(cubic);
+    const double u = uniform(generator, 0.1, 0.9), h = 1e-4;
+    const auto [v, v_u, v_uu] = speed.derivatives(u);
+    // Of order two: near a cusp the differences are off by its distance.
+    const double scale = (cubic.points().topRows<3>().colwise() - cubic.points().col(0).head<3>()).norm();
+    if (v < 0.1 * scale) continue;
+    ASSERT_NEAR(v, speed(u), 1e-14 * scale);
+    ASSERT_NEAR(v_u, (speed(u + h) - speed(u - h)) / (2 * h), 1e-4 * scale);
+    ASSERT_NEAR(v_uu, (speed(u + h) - 2 * v + speed(u - h)) / (h * h), 1e-2 * scale);
+  }
+}
+
 TEST(ArcLengthTest, OnAnEvenLineItIsAProportionAndOnAnUnevenOneItIsNot) {
   const Eigen::Vector4d a(3, -2, 7, 1), b(4.5, 0, 9.25, 1);
   const auto line = [&](double second, double third) {
