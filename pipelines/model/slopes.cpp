@@ -108,7 +108,8 @@ class Candidates {
            .beam = rider.beam,
            .s = rider.s,
            .asked = joint.slope,
-           .rider = static_cast<int>(j)});
+           .rider = static_cast<int>(j),
+           .runs = resolved_.analysis.type == CaseAnalysis::Type::dynamic});
     }
   }
 
@@ -158,6 +159,14 @@ double shorter_element(const BeamModel& model, const SlopeDecision& place) {
   const double before = has_before ? beam.home_place(h) - beam.home_place(h - 1) : INFINITY,
                behind = has_behind ? beam.home_place(h + 1) - beam.home_place(h) : INFINITY;
   return std::min(before, behind);
+}
+
+// Whether a kink is the better model of a place under a tension.
+bool makes_kink(const BeamModel& model, const SlopeDecision& place, double tension) {
+  constexpr double part_of_run = 0.5;
+  const BeamProperties& beam = model.beams[place.beam].properties;
+  if (!place.runs) return is_string(beam, *place.element, tension);
+  return tension > 0 && bending_reach(beam, tension) < part_of_run * *place.element;
 }
 
 std::string by_reach(const SlopeDecision& place) {
@@ -225,10 +234,6 @@ class Decision {
 
   bool is_open(const SlopeDecision& place) const { return place.asked != SlopeRule::discontinuous; }
 
-  bool makes_string(const SlopeDecision& place, double tension) const {
-    return is_string(model_.beams[place.beam].properties, *place.element, tension);
-  }
-
   // Tensions that are given suffice where they make a string; else the equilibrium gives them, or the drawing
   // where a motion starts from it.
   void find_tensions() {
@@ -237,8 +242,8 @@ class Decision {
       if (!is_open(place)) continue;
       const double given = model_.beams[place.beam].properties.drawn_tension();
       if (given != 0) place.tension = given;
-      is_searched = is_searched ||
-                    (!makes_string(place, given) && makes_string(place, largest_tension(model_, place.beam)));
+      is_searched = is_searched || (!makes_kink(model_, place, given) &&
+                                    makes_kink(model_, place, largest_tension(model_, place.beam)));
     }
     if (!is_searched) return;
     const auto model = std::make_shared<const BeamModel>(model_);
@@ -250,7 +255,7 @@ class Decision {
     for (SlopeDecision& place : places_) {
       if (!is_open(place)) continue;
       const double tension = tension_at(*at.system, at.state, carried, place.beam, place.s);
-      if (!as_drawn || makes_string(place, tension)) place.tension = tension;
+      if (!as_drawn || makes_kink(model_, place, tension)) place.tension = tension;
     }
   }
 
@@ -268,9 +273,9 @@ class Decision {
   void decide(SlopeDecision& place) const {
     const BeamProperties& beam = model_.beams[place.beam].properties;
     if (place.tension && *place.tension > 0) place.reach = bending_reach(beam, *place.tension);
-    const bool is_short = place.reach && makes_string(place, *place.tension);
-    place.discontinuous = place.asked == SlopeRule::discontinuous || (is_short && place.why.empty());
-    place.sharp = is_short && !place.discontinuous;
+    place.discontinuous = place.asked == SlopeRule::discontinuous ||
+                          (place.why.empty() && place.reach && makes_kink(model_, place, *place.tension));
+    place.sharp = place.reach && !place.discontinuous && is_string(beam, *place.element, *place.tension);
     if (!place.why.empty()) return;
     if (place.asked == SlopeRule::discontinuous)
       place.why = "as the case says";
@@ -280,7 +285,9 @@ class Decision {
     else if (!place.reach)
       place.why = "the beam is not under tension";
     else
-      place.why = by_reach(place);
+      place.why = by_reach(place) + (place.discontinuous && !is_string(beam, *place.element, *place.tension)
+                                         ? ": a kink sinks too far there by half its angle times this reach"
+                                         : "");
   }
 
   const ResolvedCase& resolved_;
@@ -395,15 +402,18 @@ bool is_rope(const Beam& beam, int b, const std::vector<SlopeDecision>& places) 
          });
 }
 
-void warn_of_smooth_strings(const std::vector<SlopeDecision>& places, Findings& findings) {
+void warn_of_smooth_strings(const BeamModel& model, const std::vector<SlopeDecision>& places,
+                            Findings& findings) {
   for (const SlopeDecision& place : places) {
-    if (!place.sharp) continue;
-    const std::string facts = "under " + text_of(*place.tension, digits) + " N bending reaches " +
-                              text_of(*place.reach, digits) + " m, and the shorter element beside it is " +
-                              text_of(*place.element, digits) +
-                              " m long: the beam sags too little there, and its moments are those of a layer "
-                              "in closed form; ";
-    if (place.asked == SlopeRule::continuous)
+    const bool asked_smooth = place.asked == SlopeRule::continuous;
+    const bool rings = asked_smooth && place.runs && place.reach && makes_kink(model, place, *place.tension);
+    if (!place.sharp && !rings) continue;
+    const std::string facts =
+        "under " + text_of(*place.tension, digits) + " N bending reaches " + text_of(*place.reach, digits) +
+        " m, and the shorter element beside it is " + text_of(*place.element, digits) + " m long: " +
+        (place.sharp ? "the beam sags too little there, and its moments are those of a layer in closed form; "
+                     : "forces ring as the body runs from element to element; ");
+    if (asked_smooth)
       findings.warn(place.path + ".slope", "is \"continuous\", but " + facts +
                                                "use \"automatic\", or elements shorter than bending reaches");
     else if (place.why == too_few_elements)
@@ -447,7 +457,7 @@ std::vector<SlopeDecision> decide_slopes(const ResolvedCase& resolved, const std
   for (const SlopeDecision& place : places) mark(place, model);
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     model.beams[b].rope = is_rope(model.beams[b], static_cast<int>(b), places);
-  warn_of_smooth_strings(places, findings);
+  warn_of_smooth_strings(model, places, findings);
   return places;
 }
 
@@ -457,7 +467,7 @@ bool smooth_fine_kinks(BeamModel& model, std::vector<SlopeDecision>& slopes) {
     const bool is_open = place.discontinuous && place.asked != SlopeRule::discontinuous && place.reach;
     if (!is_open) continue;
     place.element = shorter_element(model, place);
-    if (is_string(model.beams[place.beam].properties, *place.element, *place.tension)) continue;
+    if (makes_kink(model, place, *place.tension)) continue;
     place.discontinuous = false;
     place.why = by_reach(place);
     any = true;

@@ -18,7 +18,7 @@ Field<Owner> slope_field(SlopeRule Owner::*member) {
                        {"discontinuous", SlopeRule::discontinuous}},
                       "whether the beam may have a kink there; automatic: it may where, under its tension T, "
                       "bending reaches over a sixteenth of the shorter element beside it at most, "
-                      "sqrt(EI/T) < l/16")
+                      "sqrt(EI/T) < l/16, or over half of it under a body that slides in a motion")
       .otherwise("automatic");
 }
 
