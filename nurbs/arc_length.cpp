@@ -152,7 +152,7 @@ ArcLengthMap::Inverse ArcLengthMap::inverse_on(std::size_t k) const {
   // The middle is where such a polynomial is furthest off.
   const double middle = a + inverse(0.5);
   inverse.exact = a < middle && middle < b &&
-                  std::abs(gauss_of_5(speed_, a, middle) - panel_length / 2) <= 1e-15 * length();
+                  std::abs(gauss_of_5(speed_, a, middle) - panel_length / 2) <= 1e-16 * length();
   return inverse;
 }
 
@@ -166,7 +166,7 @@ double ArcLengthMap::by_newton(std::size_t k, double from_start) const {
              : t < 0 ? a + from_start / speed_(a)
                      : b + (from_start - panel_length) / speed_(b);
   for (int i = 0; i < 60; ++i) {
-    const double excess = gauss(speed_, a, u) - from_start;
+    const double excess = (inside ? gauss_of_5(speed_, a, u) : gauss(speed_, a, u)) - from_start;
     (excess > 0 ? high : low) = u;
     double next = u - excess / speed_(u);
     if (inside && (next < low || next > high)) next = 0.5 * (low + high);
