@@ -17,6 +17,7 @@ void RunExtremes::keep(const RunExtreme& candidate, bool least) {
     }
   }
   RunExtreme& kept = list_[next_++];
+  if (kept.s && !candidate.s) return;  // of a body that has left its beam
   const bool more = least ? candidate.value < kept.value : std::abs(candidate.value) > std::abs(kept.value);
   if (more || std::isnan(kept.value)) kept = candidate;
 }

@@ -126,6 +126,62 @@ TEST(Sag, IsLeftEmptyWhereTheChordIsUpright) {
   EXPECT_LT(empty, run.rows.size() / 4);
 }
 
+// A bead on a rail from 4 m up, which it leaves; it then falls for 2 s and is faster.
+TEST(Extremes, OfABodyThatLeavesItsBeamAreThoseOnTheBeam) {
+  const std::string chute = R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{ "name": "rail", "rigid": true, "axis": { "polyline": [[0, 0, 0], [3, 0, -4]] } }],
+    "bodies": [{ "name": "bead", "mass": 5 }],
+    "sliding_joints": [{ "body": "bead", "beam": "rail", "at": "start" }],
+    "analysis": { "end_time": 3 }, "output": { "report": false, "every": 0.5 } })";
+  for (const char* step : {"analysis.step=null", "analysis.step=0.007"}) {
+    const RunOf found = extremes_of(chute, {step});
+    EXPECT_NEAR(found.value("bead.speed"), std::sqrt(2 * 9.81 * 4), 1e-3) << step;
+    EXPECT_NEAR(found.place("bead.speed"), 5, 1e-6);
+    EXPECT_NEAR(found.value("bead.joint_force"), 5 * 9.81 * 0.6, 1e-3);
+    EXPECT_GT(found.run.last("bead.speed [m/s]"), 20);
+  }
+}
+
+// From 5 m up down a straight slope into the parabola z = x^2: at its bottom v^2 = 2 g 5, m (g + 2 v^2).
+TEST(Extremes, OfBodiesOnRailsAreFoundWithinSteps) {
+  const std::string valley = R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{ "name": "rail", "rigid": true, "axis": { "nurbs": { "degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 3],
+      "control_points": [[-3, 0, 5], [-2, 0, 3], [-1, 0, 1], [0, 0, -1], [1, 0, 1], [2, 0, 3], [3, 0, 5]] } } }],
+    "bodies": [{ "name": "bead", "mass": 5 }],
+    "sliding_joints": [{ "body": "bead", "beam": "rail", "at": "start" }],
+    "analysis": { "end_time": 1.8 }, "output": { "report": false, "every": 1.8 } })";
+  constexpr double g = 9.81, force = 5 * (g + 2 * 2 * g * 5), place = 2 * 2.23606797749979 + 1.47894285754;
+  for (const char* integrator : {R"({"type": "radau"})", R"({"type": "generalized-alpha"})"}) {
+    const bool is_exact = std::string(integrator).find("radau") != std::string::npos;
+    const RunOf found =
+        extremes_of(valley, {std::string("analysis.integrator=") + integrator,
+                             std::string("analysis.tolerance=") + (is_exact ? "1e-4" : "1e-6")});
+    EXPECT_NEAR(found.value("bead.joint_force"), force, 0.005 * force) << integrator;
+    EXPECT_NEAR(found.place("bead.joint_force"), place, 0.02) << integrator;
+    EXPECT_NEAR(found.value("bead.speed"), std::sqrt(2 * g * 5), 0.005 * std::sqrt(2 * g * 5)) << integrator;
+  }
+}
+
+// Along a rail of many segments, at whose ends steps end: as with steps that are short beside it.
+TEST(Extremes, OfACoasterAreThoseOfShortSteps) {
+  std::string points;
+  for (int i = 0; i <= 60; ++i) {
+    const double x = 1.2 * i, z = 20 * std::exp(-x * x / 100) + 9 * std::exp(-(x - 40) * (x - 40) / 64);
+    points += (i == 0 ? "" : ", ") + ("[" + std::to_string(x) + ", 0, " + std::to_string(z) + "]");
+  }
+  const std::string coaster =
+      R"({ "nurbeam": 1, "beams": [{ "name": "rail", "rigid": true, "axis": { "through": [)" + points +
+      R"(] } }], "bodies": [{ "name": "car", "mass": 500 }],
+    "sliding_joints": [{ "body": "car", "beam": "rail", "at": "start", "speed": 3 }],
+    "analysis": { "end_time": 5 }, "output": { "report": false, "every": 5 } })";
+  const RunOf within = extremes_of(coaster, {"analysis.tolerance=1e-6"}),
+              stepped = extremes_of(coaster, {"analysis.step=5e-4"});
+  for (const char* quantity : {"car.joint_force", "car.speed"}) {
+    const double right = stepped.value(quantity);
+    EXPECT_NEAR(within.value(quantity), right, 0.005 * right) << quantity;
+  }
+}
+
 TEST(Extremes, OfAModeAreThoseOfItsShape) {
   const RunOf found = extremes_of(
       bar, {with_elements(1), "loads=null", R"(analysis={"type": "modes", "modes": {"count": 1}})"});

@@ -11,6 +11,12 @@
 
 namespace nurbeam {
 
+/// What was shown so far of a rider on a guide: its largest speed [m/s], and the largest force across the
+/// guide over its mass [m/s^2].
+struct GuidePeaks {
+  double pull = 0, speed = 0;
+};
+
 /// A run: a motion at one moment of a simulation, shared by its steps, events and changes of the mesh. Its
 /// functions that return a bool tell whether the run goes on; where it does not, the report has the reason.
 struct Run {
@@ -26,8 +32,9 @@ struct Run {
   SimulationReport report = {};
   MeshWatch watch = {};
   PeakWatch peaks = {};
-  std::size_t events_at_once = 0;  ///< number of events since time last advanced
-  double last_step = 0;            ///< [s]
+  std::vector<GuidePeaks> shown_on_guides = {};  ///< of riders
+  std::size_t events_at_once = 0;                ///< number of events since time last advanced
+  double last_step = 0;                          ///< [s]
   StepRecord last_record = {};
   std::vector<StepRecord> steps = {};  ///< since the last snapshot
 

@@ -275,6 +275,8 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
                      taken.rejected};
   run.steps.push_back(run.last_record);
   watch_for_peaks(run, before, first, step_before);
+  look_within(run, before, step_before);
+  if (landing.ending) show_arrival(run, landing.ending->rider);
   book(run, {before, at.state, states_within(run, length), is_cubic(run)}, first, step_before);
   return pass(run, landing, before);
 }
