@@ -83,6 +83,7 @@ py::tuple modes(const std::shared_ptr<BuiltCase>& c, const Functions& functions)
   std::vector<Diagnostic> warnings = run_warnings(c->case_file, built, report, checks);
   if (report.status == SimulationStatus::done)  // else it has not come to them
     for (const auto& more : {round_off_warning(c->case_file.path, built.model, *recording->modes),
+                             coarse_waves_warning(c->case_file.path, *recording->modes),
                              short_waves_warning(c->case_file.path, *recording->modes),
                              fewer_modes_note(c->case_file, *recording->modes)})
       if (more) warnings.push_back(*more);

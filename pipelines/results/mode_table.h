@@ -18,6 +18,12 @@ struct ModeRow {
   /// shear and rotary inertia; infinite and 0 where the mode does not bend.
   double diameters = std::numeric_limits<double>::infinity(), excess = 0;
 
+  /// How well the mesh follows the mode: elements a half wave of the beam that follows it worst, its name,
+  /// and how many elements it has; infinite where nothing moves in waves.
+  double per_half_wave = std::numeric_limits<double>::infinity();
+  std::string beam = {};
+  int elements = 0;
+
   double frequency() const;                                                     ///< [Hz]
   Eigen::Vector3d effective_mass() const { return participation.cwiseAbs2(); }  ///< [kg]
 };

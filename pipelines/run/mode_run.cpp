@@ -61,6 +61,13 @@ void note_waves(const BendingWave& wave, const BeamModel& model, ModeRow& row) {
       wave.diameters, material.shear_modulus ? material.youngs_modulus / *material.shear_modulus : usual);
 }
 
+void note_resolution(const WaveResolution& of, const BeamModel& model, ModeRow& row) {
+  if (of.beam < 0) return;
+  row.per_half_wave = of.per_half_wave;
+  row.beam = model.beams[of.beam].name;
+  row.elements = of.elements;
+}
+
 }  // namespace
 
 SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
@@ -90,6 +97,8 @@ SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
       table.rows.push_back(
           {mode.omega, mode.factor, built.frame.direction_to_world(mode.participation), mode.round_off});
       if (mode.omega > 0) note_waves(bending_wave(found.at, mode), built.model, table.rows.back());
+      if (mode.omega != 0 || mode.factor != 0)
+        note_resolution(wave_resolution(found.at, mode), built.model, table.rows.back());
     }
   }
   report.motion_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -117,6 +126,29 @@ std::optional<Diagnostic> short_waves_warning(const std::filesystem::path& file,
                percent(*last) + "; " + std::to_string(count) + " of the modes are below ten diameters";
   return Diagnostic{Severity::warning, file.string() + ": analysis.modes",
                     message + "; use Timoshenko beams or solid elements for them"};
+}
+
+std::optional<Diagnostic> coarse_waves_warning(const std::filesystem::path& file, const ModeTable& table) {
+  constexpr double least = 2, near = 0.05;  // elements a half wave
+  constexpr int digits = 2;
+  const auto is_coarse = [](const ModeRow& row) { return row.per_half_wave < least - near; };
+  const auto first = std::ranges::find_if(table.rows, is_coarse);
+  if (first == table.rows.end()) return std::nullopt;
+  const auto worst = std::ranges::min_element(table.rows, {}, &ModeRow::per_half_wave);
+  const auto count = std::ranges::count_if(table.rows, is_coarse);
+  const auto name = [&](const auto& row) { return "mode " + std::to_string(row - table.rows.begin() + 1); };
+  const int needed = static_cast<int>(std::ceil(least * worst->elements / worst->per_half_wave));
+  std::string message = name(first) + " moves beam \"" + first->beam + "\" in half waves of " +
+                        text_of(first->per_half_wave, digits) + " elements";
+  if (count > 1)
+    message += ", and " + name(worst) + " beam \"" + worst->beam + "\" in half waves of " +
+               text_of(worst->per_half_wave, digits) + "; " + std::to_string(count) +
+               " of the modes have fewer than two";
+  return Diagnostic{Severity::warning, file.string() + ": analysis.modes",
+                    message + ": the mesh does not follow " + (count > 1 ? "them" : "it") + ", and " +
+                        (table.buckling ? "factors" : "frequencies") +
+                        " are too high, by some percent or more; give beam \"" + worst->beam + "\" " +
+                        std::to_string(needed) + " elements or more"};
 }
 
 std::optional<Diagnostic> round_off_warning(const std::filesystem::path& file, const BeamModel& model,

@@ -28,6 +28,9 @@ SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
 /// That modes bend in so short waves that shear and rotary inertia, which the beams leave out, count.
 std::optional<Diagnostic> short_waves_warning(const std::filesystem::path& file, const ModeTable& table);
 
+/// That elements are too long for the waves of modes.
+std::optional<Diagnostic> coarse_waves_warning(const std::filesystem::path& file, const ModeTable& table);
+
 /// That a frequency has lost digits to round-off, or may be no 0.
 std::optional<Diagnostic> round_off_warning(const std::filesystem::path& file, const BeamModel& model,
                                             const ModeTable& table);

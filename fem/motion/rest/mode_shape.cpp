@@ -58,6 +58,33 @@ Extreme greatest_displacement(const BeamSystem& system, const State& state, int 
   return greatest;
 }
 
+// The displacement of a mode at a Gauss point, and its derivatives by s.
+struct DisplacedPoint {
+  int beam;
+  double ds;  // weight of the point [m]
+  Eigen::Vector3d tangent, d, d_s, d_ss;
+};
+
+template <class LookAt>
+void for_each_displacement(const MeshedState& at, const Mode& mode, const LookAt& look_at) {
+  constexpr double amount = 1e-6;
+  const Mesh& mesh = at.system->mesh();
+  State moved = at.state;
+  moved.q += amount * mode.shape;
+  for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
+    const MeshSpan& span = mesh.spans[i];
+    const double s_a = span.start(at.state.q), length = span.end(at.state.q) - s_a;
+    for (int g = 0; g < GaussRule::size; ++g) {
+      const double s = s_a + GaussRule::points[g] * length;
+      const MaterialPoint<3> here = material_point_in(*at.system, at.state, i, s),
+                             there = material_point_in(*at.system, moved, i, s);
+      look_at(DisplacedPoint{span.beam, GaussRule::weights[g] * length, here.rs.normalized(),
+                             (there.r - here.r) / amount, (there.rs - here.rs) / amount,
+                             (there.rss - here.rss) / amount});
+    }
+  }
+}
+
 }  // namespace
 
 double visible_amplitude(const MeshedState& at, const Mode& mode) {
@@ -87,27 +114,18 @@ double visible_amplitude(const MeshedState& at, const Mode& mode) {
 }
 
 BendingWave bending_wave(const MeshedState& at, const Mode& mode) {
-  constexpr double amount = 1e-6, bends_much = 0.1;
+  constexpr double bends_much = 0.1;
   const BeamModel& model = at.system->model();
-  const Mesh& mesh = at.system->mesh();
-  State moved = at.state;
-  moved.q += amount * mode.shape;
   BendingWave shortest;
   double bending = 0;
   std::vector<std::array<double, 2>> sums(model.beams.size());  // of w^2 and w_ss^2
-  for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
-    const MeshSpan& span = mesh.spans[i];
-    const double s_a = span.start(at.state.q), length = span.end(at.state.q) - s_a;
-    for (int g = 0; g < GaussRule::size; ++g) {
-      const double s = s_a + GaussRule::points[g] * length, ds = GaussRule::weights[g] * length;
-      const MaterialPoint<3> here = material_point_in(*at.system, at.state, i, s),
-                             there = material_point_in(*at.system, moved, i, s);
-      const Eigen::Vector3d t = here.rs.normalized();
-      const auto across = [&](const Eigen::Vector3d& d) { return (d - d.dot(t) * t).squaredNorm(); };
-      sums[span.beam][0] += ds * across((there.r - here.r) / amount);
-      sums[span.beam][1] += ds * across((there.rss - here.rss) / amount);
-    }
-  }
+  for_each_displacement(at, mode, [&](const DisplacedPoint& point) {
+    const auto across = [&](const Eigen::Vector3d& d) {
+      return (d - d.dot(point.tangent) * point.tangent).squaredNorm();
+    };
+    sums[point.beam][0] += point.ds * across(point.d);
+    sums[point.beam][1] += point.ds * across(point.d_ss);
+  });
   for (std::size_t b = 0; b < sums.size(); ++b)
     if (!model.beams[b].rigid) bending += model.beams[b].properties.bent_energy(std::sqrt(sums[b][1]), 1);
   if (!(bending > mode.omega * mode.omega / 4)) return shortest;
@@ -120,6 +138,31 @@ BendingWave bending_wave(const MeshedState& at, const Mode& mode) {
       shortest = {static_cast<int>(b), half, half / diameter};
   }
   return shortest;
+}
+
+WaveResolution wave_resolution(const MeshedState& at, const Mode& mode) {
+  constexpr double moves_much = 0.1;  // of the largest mean square
+  const BeamModel& model = at.system->model();
+  const Mesh& mesh = at.system->mesh();
+  std::vector<std::array<double, 3>> sums(model.beams.size());  // of d^2, d_s^2 and d_ss^2
+  for_each_displacement(at, mode, [&](const DisplacedPoint& point) {
+    sums[point.beam][0] += point.ds * point.d.squaredNorm();
+    sums[point.beam][1] += point.ds * point.d_s.squaredNorm();
+    sums[point.beam][2] += point.ds * point.d_ss.squaredNorm();
+  });
+  const auto mean_square = [&](std::size_t b) { return sums[b][0] / model.beams[b].curve.length(); };
+  double largest = 0;
+  for (std::size_t b = 0; b < sums.size(); ++b) largest = std::max(largest, mean_square(b));
+  WaveResolution worst;
+  for (std::size_t b = 0; b < sums.size(); ++b) {
+    const int elements = mesh.first_span[b + 1] - mesh.first_span[b];
+    if (elements == 0 || mean_square(b) < moves_much * largest) continue;
+    const double length = model.beams[b].curve.length(),
+                 half = std::numbers::pi * std::sqrt(sums[b][1] / sums[b][2]);
+    if (const double each = half * elements / length; worst.beam < 0 || each < worst.per_half_wave)
+      worst = {static_cast<int>(b), elements, half, each};
+  }
+  return worst;
 }
 
 Snapshot record_mode(const MeshedState& at, const Mode& mode, double amount, double rate,

@@ -19,6 +19,15 @@ struct BendingWave {
 /// The waves of a vibration in which bending has at least half of the energy; else of no beam.
 BendingWave bending_wave(const MeshedState& at, const Mode& mode);
 
+/// How well the elements of a beam follow the waves of a mode.
+struct WaveResolution {
+  int beam = -1;         ///< the beam that follows them worst of those that move much; -1: none moves in waves
+  int elements = 0;      ///< of the beam
+  double half_wave = 0;  ///< pi (int |d_s|^2 ds/int |d_ss|^2 ds)^(1/2), d the displacement [m]
+  double per_half_wave = 0;  ///< elements a half wave
+};
+WaveResolution wave_resolution(const MeshedState& at, const Mode& mode);
+
 /// The state at rest moved by `amount` times the shape: places of the points, and velocities of `rate` times
 /// the shape. Section forces, energies and reactions stay those at rest, as they would mean nothing for large
 /// linear displacements.
