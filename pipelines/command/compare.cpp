@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <ostream>
+#include <string>
 
 #include "nurbs/curve_distance.h"
+#include "nurbs/number_text.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/reading_progress.h"
 
@@ -31,6 +33,13 @@ double size_of(const std::vector<ImportedCurve>& a, const std::vector<ImportedCu
     for (const ImportedCurve& curve : *curves)
       for (const auto& point : curve.curve.control_points().colwise()) box.extend(point.hnormalized());
   return box.diagonal().norm();
+}
+
+/// A distance beside the size of the files; 0 where it is their round-off.
+std::string distance_text(double distance, double size) {
+  constexpr double round_off = 1e-14;
+  constexpr int digits = 6;
+  return text_of(distance <= round_off * size ? 0 : distance, digits) + " m";
 }
 
 }  // namespace
@@ -64,12 +73,16 @@ int compare_files(const std::filesystem::path& a, const std::filesystem::path& b
     const ImportReport &source = reports[from], &target = reports[1 - from];
     const FarthestPoint farthest = farthest_point(source.curves, target.curves);
     largest = std::max(largest, farthest.distance);
-    out << "from " << source.file << " to " << target.file << ": " << farthest.distance << " m ("
-        << name_of(source, farthest.curve) << ")\n";
+    out << "from " << source.file << " to " << target.file << ": " << distance_text(farthest.distance, size)
+        << " (" << name_of(source, farthest.curve) << ")\n";
   }
-  out << "largest distance: " << largest << " m, " << largest / size
-      << " of the size; tolerance: " << tolerance << " m\n";
-  return largest <= tolerance ? 0 : 1;
+  const bool same = largest <= tolerance;
+  out << "largest distance: " << distance_text(largest, size) << ", " << text_of(largest / size, 2)
+      << " of the size\n"
+      << (same ? "the curves are the same" : "the curves differ") << ": the tolerance is "
+      << text_of(tolerance, 6) << " m"
+      << (given_tolerance ? "" : ", a millionth of the size; --tolerance LENGTH sets another") << "\n";
+  return same ? 0 : 1;
 }
 
 }  // namespace nurbeam

@@ -91,6 +91,7 @@ Json to_json(const RunSummary& summary) {
                {"rejected_steps", summary.rejected_steps},
                {"newton_iterations", summary.newton_iterations},
                {"energy_drift [J]", summary.energy_drift},
+               {"round_off", summary.round_off},
                {"axial_mismatch", to_json(summary.axial_mismatch)},
                {"extremes", list(summary.extremes)},
                {"wall_times [s]",

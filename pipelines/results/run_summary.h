@@ -72,6 +72,7 @@ struct RunSummary {
   std::vector<std::string> beams, bodies;  ///< names of the model's, for the events
   double energy_drift =
       0;  ///< largest departure of the total energy, with the dissipated, from its start [J]
+  std::map<std::string, double> round_off;  ///< of values, by their unit
   Mismatch axial_mismatch;
   std::vector<RunExtreme> extremes;
   std::optional<ModeTable> modes = {};  ///< of an analysis of modes or buckling

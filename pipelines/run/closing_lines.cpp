@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/readable_quantity.h"
@@ -23,12 +24,18 @@ constexpr Shown all_shown[] = {{".displacement.max", "displacement", "m"},
                                {".force", "support force", "N"},
                                {".speed", "speed", "m/s"}};
 
+bool is_round_off(double value, const std::string& unit, const RunSummary& summary) {
+  const auto found = summary.round_off.find(unit);
+  return found != summary.round_off.end() && std::abs(value) <= found->second;
+}
+
 // Extremes of connectors end as those of supports do; supports stand before them.
-std::optional<RunExtreme> largest(const std::vector<RunExtreme>& extremes, const Shown& shown) {
+std::optional<RunExtreme> largest(const RunSummary& summary, const Shown& shown) {
   std::optional<RunExtreme> found;
-  for (const RunExtreme& each : extremes)
+  for (const RunExtreme& each : summary.extremes)
     if (each.quantity.ends_with(shown.ending) && each.unit == shown.unit && std::isfinite(each.value) &&
-        each.value != 0 && (!found || std::abs(each.value) > std::abs(found->value)))
+        each.value != 0 && !is_round_off(each.value, each.unit, summary) &&
+        (!found || std::abs(each.value) > std::abs(found->value)))
       found = each;
   return found;
 }
@@ -43,12 +50,29 @@ std::string text_of_extreme(const RunExtreme& extreme, const Shown& shown, bool 
   return text + ")";
 }
 
-std::string extremes_line(const std::vector<RunExtreme>& extremes, bool moves) {
-  std::string line;
+void add_extremes(const RunSummary& summary, bool moves, std::vector<std::string>& lines) {
+  bool first = true;
   for (const Shown& shown : all_shown)
-    if (const auto extreme = largest(extremes, shown))
-      line += (line.empty() ? "largest " : "; ") + text_of_extreme(*extreme, shown, moves);
-  return line;
+    if (const auto extreme = largest(summary, shown))
+      lines.push_back((std::exchange(first, false) ? "largest " : "        ") +
+                      text_of_extreme(*extreme, shown, moves));
+}
+
+// What bodies did at the ends of their beams, of the first few.
+void add_endings(const RunSummary& summary, std::vector<std::string>& lines) {
+  constexpr int most = 3, digits = 4;
+  int more = -most;
+  for (const RunEvent& event : summary.events) {
+    const bool leaves = event.kind == EventKind::left_beam;
+    if (!leaves && event.kind != EventKind::stopped_at_end) continue;
+    if (++more > 0) continue;
+    lines.push_back(summary.bodies.at(event.body) + (leaves ? " left " : " stopped at the end of ") +
+                    summary.beams.at(event.beam) + " (" +
+                    (event.s ? "s = " + text_of(*event.s, digits) + " m, " : std::string()) +
+                    "t = " + text_of(event.time, digits) + " s)" +
+                    (leaves ? " and flies on: that is not counted" : ""));
+  }
+  if (more > 0) lines.push_back("... and " + std::to_string(more) + " more at ends of beams");
 }
 
 std::string energy_line(const RunSummary& summary, const SimulationReport& run, bool moves) {
@@ -56,8 +80,9 @@ std::string energy_line(const RunSummary& summary, const SimulationReport& run, 
     double strain = 0;
     for (const RunExtreme& each : summary.extremes)
       if (each.quantity == "energy.axial" || each.quantity == "energy.bending") strain += each.value;
-    return "strain energy " + readable(strain, "J");
+    return "strain energy " + readable(is_round_off(strain, "J", summary) ? 0 : strain, "J");
   }
+  if (is_round_off(summary.energy_drift, "J", summary)) return "energy balance kept to round-off";
   const double most =
       std::max({run.peak_kinetic_energy, run.strain_energy.width(), run.gravity_energy.width()});
   std::string line = "energy balance kept to " + readable(summary.energy_drift, "J");
@@ -85,7 +110,8 @@ std::vector<std::string> closing_lines(const RunSummary& summary, const Simulati
                                        const std::filesystem::path& out, bool report) {
   std::vector<std::string> lines;
   if (!summary.modes) {
-    if (std::string line = extremes_line(summary.extremes, moves); !line.empty()) lines.push_back(line);
+    add_extremes(summary, moves, lines);
+    add_endings(summary, lines);
     lines.push_back(energy_line(summary, run, moves));
   }
   lines.push_back(warnings_line(summary.diagnostics));

@@ -31,6 +31,7 @@
 #include "pipelines/run/mode_run.h"
 #include "pipelines/run/motion_mesh.h"
 #include "pipelines/run/progress.h"
+#include "pipelines/run/round_off.h"
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/run/simulation_plan.h"
@@ -168,7 +169,8 @@ class Run {
     for (std::size_t i = 0; i < table.rows.size(); ++i)
       options_.quiet ? void(*log_ << mode_text(table, i) << std::endl) : tell(mode_text(table, i));
     for (const auto& warning :
-         {round_off_warning(case_.path, built_.model, table), short_waves_warning(case_.path, table)}) {
+         {round_off_warning(case_.path, built_.model, table), coarse_waves_warning(case_.path, table),
+          short_waves_warning(case_.path, table)}) {
       if (!warning) continue;
       print_diagnostics(messages_, {*warning});
       print_diagnostics(*log_, {*warning});
@@ -256,6 +258,7 @@ class Run {
     summary_.energy_drift = simulated.energy_drift;
     summary_.axial_mismatch = outputs.checks().axial_mismatch();
     summary_.extremes = outputs.extremes();
+    summary_.round_off = round_off(built_.model, simulated);
     summary_.events = simulated.events;
     const SnapshotNames names = snapshot_names(built_);
     summary_.beams = names.beams;

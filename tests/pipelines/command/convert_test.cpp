@@ -71,7 +71,7 @@ TEST_F(Convert, CurvesAreTheSameInEveryFormatAndBack) {
     const Answer answer = answer_to({"convert", source, file(name)});
     ASSERT_EQ(answer.code, 0) << name << answer.err;
     const bool is_brep = std::string(name) == "c.brep";
-    EXPECT_NE(answer.out.find(is_brep ? "3 curve(s), unit mm" : "3 curve(s), unit inch"), std::string::npos)
+    EXPECT_NE(answer.out.find(is_brep ? "3 curves, unit mm" : "3 curves, unit inch"), std::string::npos)
         << answer.out;
     ASSERT_EQ(answer_to({"convert", file(name), file("back.json")}).code, 0) << name;
     const std::vector<ImportedCurve> back = curves_of(file("back.json"));
@@ -190,7 +190,7 @@ TEST_F(Convert, HiddenCurvesAreWrittenOnlyByName) {
   const std::string source = file("hidden.dxf", drawing);
   const Answer answer = answer_to({"convert", source, file("shown.step")});
   ASSERT_EQ(answer.code, 0);
-  EXPECT_NE(answer.err.find("1 hidden curve(s) are left out"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("1 hidden curve is left out"), std::string::npos) << answer.err;
   const std::vector<ImportedCurve> shown = curves_of(file("shown.step"));
   ASSERT_EQ(shown.size(), 1U);
   EXPECT_EQ(shown[0].name, "b");  // of its layer
@@ -301,8 +301,18 @@ TEST_F(Convert, CompareMeasuresCurvesOfHighDegreeThemselves) {
     const Answer answer = answer_to({"compare", high, low, "--tolerance", tolerance});
     EXPECT_EQ(answer.code, 0) << answer.err;
     EXPECT_NE(answer.out.find("largest distance: 1e-07 m"), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("the curves are the same: the tolerance is"), std::string::npos) << answer.out;
   }
-  EXPECT_EQ(answer_to({"compare", high, low, "--tolerance", "0.99e-7"}).code, 1);
+  const Answer differ = answer_to({"compare", high, low, "--tolerance", "0.99e-7"});
+  EXPECT_EQ(differ.code, 1);
+  EXPECT_NE(differ.out.find("the curves differ: the tolerance is 9.9e-08 m"), std::string::npos)
+      << differ.out;
+  // A thousandth of the round-off of a double beside the size.
+  const std::string nearly = file("nearly.json", R"({"unit": "m", "curves": [{"degree": 1,
+    "knots": [0, 0, 1, 1], "control_points": [[0, 1e-19], [1, 1e-19]]}]})"),
+                    line = file("line.json", R"({"unit": "m", "curves": [{"degree": 1,
+    "knots": [0, 0, 1, 1], "control_points": [[0, 0], [1, 0]]}]})");
+  EXPECT_NE(answer_to({"compare", nearly, line}).out.find("largest distance: 0 m"), std::string::npos);
 }
 
 TEST_F(Convert, TheSchemaNamesWhatIsWritten) {

@@ -20,29 +20,54 @@ RunSummary tube() {
   return summary;
 }
 
-TEST(ClosingLines, AreFourWithExtremesEnergyWarningsAndThePage) {
+TEST(ClosingLines, HaveExtremesEnergyWarningsAndThePage) {
   SimulationReport run;
   run.peak_kinetic_energy = 2e-4;
   const auto lines = closing_lines(tube(), run, true, "out", true);
-  ASSERT_EQ(lines.size(), 4u);
-  for (const char* part :
-       {"displacement 1.658 mm (tube, s = 0.95 m, t = 0.5 s)", "stress -137 MPa (tube, s = 0.25 m",
-        "tension 120 kN (tube", "support force 302.2 N (A"})
-    EXPECT_NE(lines[0].find(part), std::string::npos) << lines[0];
-  EXPECT_NE(lines[1].find("0.5 %"), std::string::npos) << lines[1];
-  EXPECT_EQ(lines[2], "1 warning, 1 note: see above, or run.json");
-  EXPECT_EQ(lines[3], "open out/report.html");
+  const std::vector<std::string> expected = {
+      "largest displacement 1.658 mm (tube, s = 0.95 m, t = 0.5 s)",
+      "        stress -137 MPa (tube, s = 0.25 m, t = 0.5 s)",
+      "        tension 120 kN (tube, s = 0 m, t = 0 s)",
+      "        support force 302.2 N (A, t = 0.5 s)",
+      "energy balance kept to 0.001 mJ, 0.5 % of the energy that moves",
+      "1 warning, 1 note: see above, or run.json",
+      "open out/report.html"};
+  EXPECT_EQ(lines, expected);
 }
 
 TEST(ClosingLines, OfStaticsHaveNoTimesButTheStrainEnergy) {
   RunSummary summary = tube();
   summary.diagnostics.clear();
   const auto lines = closing_lines(summary, {}, false, "out", false);
-  ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[0].find("t = "), std::string::npos) << lines[0];
-  EXPECT_EQ(lines[1], "strain energy 750 mJ");
-  EXPECT_EQ(lines[2], "no warnings");
-  EXPECT_EQ(lines[3], "results in out");
+  ASSERT_EQ(lines.size(), 7u);
+  for (const std::string& line : lines) EXPECT_EQ(line.find("t = "), std::string::npos) << line;
+  EXPECT_EQ(lines[4], "strain energy 750 mJ");
+  EXPECT_EQ(lines[5], "no warnings");
+  EXPECT_EQ(lines[6], "results in out");
+}
+
+TEST(ClosingLines, ShowNoRoundOff) {
+  RunSummary summary = tube();
+  summary.round_off = {{"m", 1e-2}, {"N", 1e3}, {"J", 1}};
+  const auto lines = closing_lines(summary, {}, false, "out", false);
+  EXPECT_EQ(lines[0], "largest stress -137 MPa (tube, s = 0.25 m)");
+  EXPECT_EQ(lines[1], "        tension 120 kN (tube, s = 0 m)");
+  EXPECT_EQ(lines[2], "strain energy 0 J");
+  EXPECT_EQ(closing_lines(summary, {}, true, "out", false)[2], "energy balance kept to round-off");
+}
+
+TEST(ClosingLines, TellWhoLeftTheBeamAndWhoStopped) {
+  RunSummary summary = tube();
+  summary.beams = {"tube"};
+  summary.bodies = {"bead", "ring"};
+  RunEvent leaves, stops;
+  leaves = {.time = 1.25, .kind = EventKind::left_beam, .beam = 0, .body = 0, .s = 2.0};
+  stops = {.time = 1.5, .kind = EventKind::stopped_at_end, .beam = 0, .body = 1, .s = 0.0};
+  summary.events = {leaves, stops, stops, stops, stops};
+  const auto lines = closing_lines(summary, {}, true, "out", false);
+  EXPECT_EQ(lines[4], "bead left tube (s = 2 m, t = 1.25 s) and flies on: that is not counted");
+  EXPECT_EQ(lines[5], "ring stopped at the end of tube (s = 0 m, t = 1.5 s)");
+  EXPECT_EQ(lines[7], "... and 2 more at ends of beams");
 }
 
 TEST(ReadableQuantity, HasThePrefixThatPeopleWrite) {
