@@ -88,6 +88,25 @@ struct Field {
   }
 };
 
+/// From the drawing, of the control points [m].
+Eigen::Matrix<double, 3, 4> displacements_of(const ElementRecord& element) {
+  return element.control_points.colwise().hnormalized() - element.drawn_points;
+}
+
+/// Displacements from the drawing, at the four sample parameters [m]. A drawn cubic has the weights of the
+/// element.
+Eigen::Vector4d displacements_at_samples(const ElementRecord& element) {
+  Eigen::Vector4d sizes;
+  for (int i = 0; i < 4; ++i) {
+    const double u = i / 3.0, v = 1 - u;
+    const Eigen::Vector4d parts =
+        Eigen::Vector4d(v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u)
+            .cwiseProduct(element.control_points.row(3).transpose());
+    sizes[i] = (displacements_of(element) * parts).norm() / parts.sum();
+  }
+  return sizes;
+}
+
 std::vector<Field> all_fields() {
   return {
       {"strain", "1", [](const ElementRecord& e) { return e.strain; }},
@@ -101,16 +120,12 @@ std::vector<Field> all_fields() {
       {"shear force", "N", [](const ElementRecord& e) { return e.shear_force; }},
       {"stress", "Pa", [](const ElementRecord& e) { return e.stress; }},
       {"von Mises stress", "Pa", [](const ElementRecord& e) { return e.von_mises; }},
+      {"displacement", "m", displacements_at_samples},
       {"speed", "m/s", [](const ElementRecord& e) -> Eigen::Vector4d { return e.velocity.colwise().norm(); }},
       {"axial mismatch", "1",
        [](const ElementRecord& e) -> Eigen::Vector4d {
          return Eigen::Vector4d::Constant(e.axial_mismatch);
        }}};
-}
-
-/// From the drawing, of the control points [m].
-Eigen::Matrix<double, 3, 4> displacements_of(const ElementRecord& element) {
-  return element.control_points.colwise().hnormalized() - element.drawn_points;
 }
 
 /// What must be known of all frames before one can be written.
@@ -225,6 +240,21 @@ void for_each_frame(const ReportFrames& frames, Use use) {
   }
 }
 
+/// The frames of modes with the state at rest, frame 0, for a drawing: displacements are then those of shapes.
+ReportFrames from_the_state(const ReportFrames& frames) {
+  ReportFrames shapes = frames;
+  shapes.read = [read = frames.read, state = frames.read(0, 1)[0]](std::size_t first, std::size_t count) {
+    std::vector<Snapshot> piece = read(first, count);
+    for (Snapshot& frame : piece)
+      for (std::size_t b = 0; b < frame.beams.size(); ++b)
+        for (std::size_t e = 0; e < frame.beams[b].elements.size(); ++e)
+          frame.beams[b].elements[e].drawn_points =
+              state.beams[b].elements[e].control_points.colwise().hnormalized();
+    return piece;
+  };
+  return shapes;
+}
+
 /// Which frames the page holds: all, or every second, third, ... and the last.
 std::vector<std::size_t> kept_frames(const Survey& survey, std::size_t most_bytes) {
   const std::size_t frames = survey.element_counts.size();
@@ -313,11 +343,13 @@ std::pair<std::string_view, std::string_view> cut(std::string_view text, std::st
 
 }  // namespace
 
-void write_report_page(std::ostream& stream, const ReportFrames& frames, const std::string& run_json,
+void write_report_page(std::ostream& stream, const ReportFrames& given, const std::string& run_json,
                        std::size_t most_bytes) {
   const Json run = Json::parse(run_json, nullptr, false);
   if (!run.is_object()) throw std::invalid_argument("run.json: is not a JSON object");
-  if (frames.times.empty()) throw std::invalid_argument("there is no stored frame to report");
+  if (given.times.empty()) throw std::invalid_argument("there is no stored frame to report");
+  const bool has_modes = run.contains("modes") || run.contains("buckling");
+  const ReportFrames frames = has_modes ? from_the_state(given) : given;
   Survey survey;
   survey.columns = empty_columns(frames.names);
   survey.sections = frames.names.sections;
@@ -327,7 +359,7 @@ void write_report_page(std::ostream& stream, const ReportFrames& frames, const s
     const bool in_no_frame = field.min > field.max, is_nothing = field.min == 0 && field.max == 0;
     return in_no_frame || (is_nothing && (name == "torque" || (guides && name != "curvature")));
   });
-  survey.drawn = survey.drawn && !run.contains("modes") && !run.contains("buckling");  // of any amplitude
+  survey.drawn = survey.drawn && !has_modes;  // of any amplitude
   const std::vector<std::size_t> kept = kept_frames(survey, most_bytes);
   Json data = description(frames, survey, kept);
   data["run"] = run;

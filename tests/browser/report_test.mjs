@@ -60,6 +60,14 @@ report_test('a body that hangs on a rope alone has no place on a beam', 'guide/r
   assert.deepEqual(Object.keys(await readings(page, 's')), ['car']);
 });
 
+report_test('a mode is coloured by the displacement of its shape', 'strut/report.html', {}, async (page) => {
+  assert.equal(await page.$eval('#field', (field) => field.selectedOptions[0].textContent), 'displacement');
+  assert.equal(await page.textContent('#legend-unit'), 'of the largest');
+  assert.equal(await page.textContent('#legend-low'), '0');
+  assert.equal(await page.textContent('#legend-high'), '1');
+  assert.equal(await page.isVisible('#instant'), false);
+});
+
 report_test('round-off is no extreme', 'strut/report.html', {}, async (page) => {
   assert.doesNotMatch(await page.textContent('#extremes'), /axial_force|stress|von_mises/);
 });
@@ -115,7 +123,7 @@ report_test('of a model in a plane the plots show the two coordinates that move'
   assert.deepEqual(Object.keys(await readings(page, 'body-0-position')), ['x', 'y']);
 });
 
-for (const file of [zipline, 'cantilever/report.html', 'cable_crane/report.html', still]) {
+for (const file of [zipline, 'strut/report.html', 'guide/report.html', 'cantilever/report.html', 'cable_crane/report.html', still]) {
   report_test(`on a phone no column is out of sight: ${file}`, file, { viewport: { width: 390, height: 844 } }, async (page) => {
     await page.screenshot({ path: join(shots, `${file.split('/')[0]}_phone.png`) });
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));

@@ -82,4 +82,7 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+/** The parts of "cable.displacement.max" with places between them where a line may end. */
+export const breakable = (name) => name.split(/(?<=[._])/).flatMap((part, i) => (i ? [element('wbr'), part] : [part]));
+
 export const unit_text = (unit) => unit.replace('^2', '²');

@@ -98,14 +98,17 @@ function set_notes() {
   $('notes').append(...notes.map((text) => element('p', { class: 'card notice' }, text)));
 }
 
-/** What the beams are coloured by at first: in statics their stress, where there is any. */
+/** What the beams are coloured by at first: in statics their stress, where there is any; modes by the displacement. */
 function first_field(fields) {
   const of = (...names) => names.map((name) => fields.findIndex((field) => field.name === name && (field.min !== 0 || field.max !== 0)))
     .find((i) => i >= 0) ?? 0;
   if (is_drawing) {
     return of('curvature');
   }
-  return (is_static && !has_modes) || is_load_steps ? of('stress', 'bending moment', 'axial force') : of('speed');
+  if (has_modes) {
+    return of('displacement');
+  }
+  return is_static || is_load_steps ? of('stress', 'bending moment', 'axial force') : of('speed');
 }
 
 function start_view() {
@@ -121,9 +124,12 @@ function start_view() {
   $('field').append(...fields.map(({ name }, i) => element('option', { value: i }, name)));
   $('field').value = first_field(fields);
   choose_colours = () => {
-    const { low, high, stops } = view.set_field(Number($('field').value), $('instant').checked);
+    const { name, unit } = fields[$('field').value];
+    const of_shape = has_modes && name === 'displacement';  // which is of any amplitude
+    const { low, high, stops } = view.set_field(Number($('field').value), has_modes || $('instant').checked);
     $('legend-bar').style.background = css_gradient(stops);
-    const { unit: shown, factor } = readable_unit(Math.max(Math.abs(low), Math.abs(high)), fields[$('field').value].unit);
+    const { unit: shown, factor } = of_shape ? { unit: 'of the largest', factor: high }
+      : readable_unit(Math.max(Math.abs(low), Math.abs(high)), unit);
     const texts = [low, (low + high) / 2, high].map((value) => number(value / factor, 4));
     ['legend-low', 'legend-middle', 'legend-high'].forEach((id, i) => { $(id).textContent = texts[i]; });
     $('legend-unit').textContent = shown;
@@ -193,7 +199,8 @@ function start_view() {
 
 function start_player() {
   if (has_modes) {
-    start_modes(data, view, $);
+    start_modes(data, view, $, () => choose_colours());
+    $('instant').closest('label').hidden = true;
     return;
   }
   if (is_static) {

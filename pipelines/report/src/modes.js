@@ -8,8 +8,15 @@ export const modes_of = (run) => run?.modes ?? run?.buckling ?? [];
 const name_of = (mode) => (mode.factor === undefined ? `${mode.number}: ${number(mode['frequency [Hz]'])} Hz`
   : `${mode.number}: ${number(mode.factor)} × the loads`);
 
-/** A table of them. */
-export const modes_table = (run) => table_of(run.modes ? 'Modes of vibration' : 'Factors of the loads', modes_of(run));
+/** Effective masses as parts of the whole mass, without round-off. */
+const percents = (masses, whole) => masses.map((mass) => (mass < 1e-5 * whole ? '0' : number((100 * mass) / whole, 3))).join(', ');
+
+/** A table of them; modes.csv has the digits, and the participation. */
+export const modes_table = (run) => (run.modes
+  ? table_of('Modes of vibration', run.modes.map((mode) => ({
+    mode: mode.number, 'frequency [Hz]': mode['frequency [Hz]'], 'period [s]': mode['period [s]'] && Number(mode['period [s]'].toPrecision(4)),
+    'effective mass in x, y, z [%]': percents(mode['effective_mass [kg]'], run['mass [kg]']) })))
+  : table_of('Factors of the loads', modes_of(run)));
 
 /** Frame 0 of the page's data is the state, the frame at time i its shape in mode i. */
 class Swing {
@@ -53,8 +60,9 @@ class Swing {
   }
 }
 
-/** Makes the transport of the page choose a mode and let it swing; two seconds a period, whatever it takes. */
-export function start_modes(data, view, $) {
+/** Makes the transport of the page choose a mode and let it swing; two seconds a period, whatever it takes. `chosen` is called
+ *  when another mode is shown. */
+export function start_modes(data, view, $, chosen) {
   const modes = modes_of(data.run), swing = new Swing(data), period = 2;
   const choice = element('select', { id: 'mode', 'aria-label': 'Mode' },
     ...modes.map((mode, i) => element('option', { value: i }, name_of(mode))));
@@ -95,6 +103,7 @@ export function start_modes(data, view, $) {
   choice.addEventListener('change', () => {
     swing.choose(modes[Number(choice.value)]);
     show();
+    chosen();
   });
   play.addEventListener('click', () => set_playing(!playing));
   slider.addEventListener('input', () => {
@@ -110,4 +119,5 @@ export function start_modes(data, view, $) {
   });
   swing.choose(modes[0]);
   show();
+  chosen();
 }

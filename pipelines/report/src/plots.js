@@ -1,7 +1,7 @@
 // Time histories as small SVG pictures with one common cursor, and fields along the beams.
 import { line_style } from './colours.js';
 import { element, number, number_beside, readable_unit, round_down } from './format.js';
-import { carried_round_off, energy_parts } from './tables.js';
+import { carried_round_off, energy_parts, round_off_of } from './tables.js';
 
 const height = 150, right = 14, top = 10, bottom = 24;
 
@@ -362,7 +362,8 @@ export function plots_of(data, at_rest = false) {
     if (of_probes && beams.length) {
       series.push(...names.probes.map((name, i) => ({ name, values: values('probe', i, of_probes) })));
     }
-    const round_off = Math.max(0, ...(data.run?.model?.beams ?? []).map((beam) => carried_round_off(beam, unit)));
+    const round_off = Math.max(round_off_of(data.run, unit),
+      ...(data.run?.model?.beams ?? []).map((beam) => carried_round_off(beam, unit)));
     const there = series.filter((one) => one.values.some((value) => !Number.isNaN(value)));
     if (there.every((one) => one.values.every((value) => !(Math.abs(value) > round_off)))) {
       for (const one of there) { one.values = one.values.map((value) => 0 * value); }

@@ -1,5 +1,5 @@
 // What run.json says, and the model, as tables.
-import { element, number, number_beside, readable, readable_unit, unit_text } from './format.js';
+import { breakable, element, number, number_beside, readable, readable_unit, unit_text } from './format.js';
 
 /** "length [m]" as its two parts. */
 function name_and_unit(key) {
@@ -30,12 +30,17 @@ function largest_by_unit(rows) {
   return largest;
 }
 
-/** Rows without round-off: numbers that are nothing beside the largest of the same unit are 0. */
-function without_round_off(rows) {
+/** What is only the round-off of a run, in that unit; 0 of runs that do not tell. */
+export const round_off_of = (run, unit) => run?.round_off?.[unit] ?? 0;
+
+/** Rows without round-off: numbers that are nothing beside the largest of the same unit, or in the run, are 0. */
+function without_round_off(rows, run) {
   const largest = largest_by_unit(rows);
   return rows.map((row) => Object.fromEntries(Object.entries(row).map(([key, value]) => {
     const { unit } = name_and_unit(key);
-    return [key, typeof value === 'number' && unit && Math.abs(value) < 1e-10 * largest[unit] ? 0 : value];
+    const is_nothing = typeof value === 'number' && unit
+      && Math.abs(value) <= Math.max(1e-10 * largest[unit], round_off_of(run, unit));
+    return [key, is_nothing ? 0 : value];
   })));
 }
 
@@ -56,6 +61,9 @@ function in_readable_units(rows) {
   })));
 }
 
+/** Numbers stand to the right, and no line ends in them. */
+const class_of = (value) => (typeof value === 'number' ? 'number whole' : null);
+
 /** A table of objects that all have the same keys; numbers to the right. */
 export function table_of(caption, rows, keys = Object.keys(rows[0] ?? {})) {
   if (rows.length === 0) {
@@ -69,7 +77,7 @@ export function table_of(caption, rows, keys = Object.keys(rows[0] ?? {})) {
   });
   const body = rows.map((row) => element('tr', {}, ...keys.map((key, i) => element(i === 0 ? 'th' : 'td', {
     scope: i === 0 ? 'row' : null,
-    class: typeof row[key] === 'number' ? 'number' : null,
+    class: class_of(row[key]),
     'data-head': key.replaceAll('_', ' '),
   }, cell_text(row[key])))));
   return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': caption },
@@ -86,7 +94,7 @@ function table_of_columns(caption, rows) {
   const body = keys.map((key) => {
     const { name, unit } = name_and_unit(key);
     return element('tr', {}, element('th', { scope: 'row' }, name, unit ? element('span', { class: 'unit' }, ` [${unit}]`)
-      : null), ...rows.map((row) => element('td', { class: 'number' }, cell_text(row[key]))));
+      : null), ...rows.map((row) => element('td', { class: class_of(row[key]) ?? 'number' }, cell_text(row[key]))));
   });
   return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': caption },
     element('table', {}, element('caption', {}, caption),
@@ -133,7 +141,9 @@ export function model_tables(run) {
     table_of('Connectors', (model.connectors ?? []).map((one) => ({ ...one, from: end_text(one.from), to: end_text(one.to) })),
       ['name', 'type', 'from', 'to', 'stiffness [N/m]', 'damping [N s/m]', 'length [m]', 'force at the start [N]']),
     table_of('Loads', model.loads,
-      ['beam', 'kind', 'value', 's [m]', 'direction', 'place speed [m/s]', 'in time']),
+      ['beam', 'kind', 'value', 's [m]', 'direction', 'place speed [m/s]', 'in time'].filter((key) => (
+        key === 's [m]' ? model.loads.some((load) => key in load)
+          : key !== 'place speed [m/s]' || model.loads.some((load) => load[key] !== 0)))),
   ];
 }
 
@@ -144,16 +154,16 @@ export const energy_parts = (data) => ['kinetic', 'gravity', 'axial', 'bending',
 /** Where the energy was at the start and the end of the run. */
 export function energy_table(data) {
   const last = data.time.length - 1;
-  const rows = energy_parts(data).filter((name) => data.column('energy', 0, name).values.some((value) => value !== 0)).map((name) => {
+  const rows = energy_parts(data).filter((name) => data.column('energy', 0, name).values.some((value) => Math.abs(value) > round_off_of(data.run, 'J'))).map((name) => {
     const { values } = data.column('energy', 0, name);
     return last === 0 ? { energy: name, 'value [J]': values[0] }
       : { energy: name, 'start [J]': values[0], 'end [J]': values[last], 'change [J]': values[last] - values[0] };
   });
   const drift = data.run?.['energy_drift [J]'];
   return [
-    table_of('Energy balance', rows),
+    table_of('Energy balance', without_round_off(rows, data.run)),
     typeof drift === 'number' && last > 0
-      ? element('p', { class: 'note' }, `The total, with what was dissipated and less the work put in, departed by at most ${number(drift, 3)} J from its start.`)
+      ? element('p', { class: 'note' }, `The total, with what was dissipated and less the work put in, departed by at most ${drift > round_off_of(data.run, 'J') ? `${number(drift, 3)} J` : 'round-off'} from its start.`)
       : null,
   ];
 }
@@ -182,14 +192,15 @@ export function extremes_table(run, time_unit, go_to_time) {
   const idle = (run?.model?.beams ?? []).filter((beam) => carries_nothing(beam, all));
   const largest = (unit) => Math.max(...all.filter((one) => one.unit === unit).map(({ value }) => Math.abs(value)));
   const extremes = all.filter(({ quantity, unit, value }) => (
-    !(['N', 'N m', 'Pa'].includes(unit) && idle.some(({ name }) => quantity.startsWith(`${name}.`)))
+    Math.abs(value) > round_off_of(run, unit)
+    && !(['N', 'N m', 'Pa'].includes(unit) && idle.some(({ name }) => quantity.startsWith(`${name}.`)))
     && Math.abs(value) > 1e-10 * largest(unit)));
   if (!extremes.length) {
     return element('p', { class: 'none' }, all.length ? 'The beams carry nothing.' : 'run.json of these results does not name any.');
   }
   const moving = extremes.some((extreme) => extreme['time [s]'] > 0);
   const rows = extremes.map((extreme) => element('tr', {},
-    element('th', { scope: 'row' }, extreme.quantity, layer_note(extreme)),
+    element('th', { scope: 'row' }, ...breakable(extreme.quantity), layer_note(extreme)),
     element('td', { class: 'number whole', title: `${extreme.value} ${extreme.unit}` }, readable(extreme.value, extreme.unit, 5)),
     element('td', { class: 'number whole' }, number(extreme['s [m]'], 5)),
     moving ? element('td', { class: 'number whole' }, button_to(extreme['time [s]'], go_to_time)) : null));
@@ -262,7 +273,7 @@ export function run_tables(run) {
 export function values_tables(data) {
   const rows = (of, names, parts) => in_readable_units(without_round_off(names.map((name, i) =>
     Object.fromEntries([['name', name], ...parts.filter(([, part]) => data.column(of, i, part))
-      .map(([label, part]) => [label, data.column(of, i, part).values[0]])]))));
+      .map(([label, part]) => [label, data.column(of, i, part).values[0]])])), data.run));
   const place = [['x [m]', 'x'], ['y [m]', 'y'], ['z [m]', 'z']];
   return [
     table_of('Places', [...rows('body', data.names.bodies, [...place, ['s [m]', 's']]),
