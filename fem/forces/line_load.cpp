@@ -4,7 +4,12 @@ namespace nurbeam {
 
 Eigen::Vector3d LineLoad::per_length(int on_beam, double t) const {
   if (on_beam != beam) return Eigen::Vector3d::Zero();
-  return value_and_slope(time, t).first * value;
+  return value_and_slope(time, t).first * even * value;
+}
+
+PointLoad LineLoad::at_place(const Share& share, double t) const {
+  const double factor = value_and_slope(time, t).first;
+  return {LoadAtPlace{.beam = beam, .s = share.s, .value = factor * share.length * value}};
 }
 
 template <int D>
@@ -17,6 +22,10 @@ double LineLoad::work(const MeshedBeams<D>& at, const State& from, const State& 
     sum += e.element.energy(gather<D>(e, from), mean).external -
            e.element.energy(gather<D>(e, to), mean).external;
   }
+  for (const Share& share : uneven)
+    sum +=
+        PointLoad{LoadAtPlace{.beam = beam, .s = share.s, .value = share.length * value, .time = time}}.work(
+            at, from, to);
   return sum;
 }
 

@@ -35,7 +35,8 @@ bool have_same_line_loads(const BeamModel& one, const BeamModel& other) {
                  if constexpr (
                      requires { a.per_length(a.beam, 0.0); }) {
                    const Kind* b = std::get_if<Kind>(&of_other);
-                   return b && a.beam == b->beam && a.value == b->value && a.time == b->time;
+                   return b && a.beam == b->beam && a.even == b->even && a.value == b->value &&
+                          a.time == b->time;
                  }
                  return true;
                };

@@ -49,6 +49,38 @@ void check_moment(const CaseLoad& load, const LoadAtPlace& moment, const DrawnBe
                        " N m along the beam, which has no torsion; leave only the part across it");
 }
 
+// The length of a beam that a force sees, over its drawn length: at a place of it.
+double seen_at(const ReferenceCurve& curve, double s, const Eigen::Vector3d& along) {
+  const Eigen::Vector3d t = curve.tangent(s);
+  return (t - t.dot(along) * along).norm();
+}
+
+// A load by the length that it sees of the drawing. Its uneven part stands at the two places of Gauss's rule
+// in each home interval.
+LineLoad projected_load(const CaseLoad& load, int b, const Beam& beam, const Eigen::Vector3d& value,
+                        const CaseAnalysis& analysis) {
+  const double place = (1 - 1 / std::sqrt(3.0)) / 2;
+  constexpr double nothing = 1e-12;  // of the length
+  const int intervals = static_cast<int>(beam.home.size()) - 1;
+  LineLoad line{b, value, time_of(load, analysis)};
+  if (value.norm() == 0) return line;
+  double seen = 0;
+  for (int h = 0; h < intervals; ++h)
+    for (const double x : {place, 1 - place}) {
+      const double from = beam.home_place(h), length = beam.home_place(h + 1) - from, s = from + x * length;
+      line.uneven.push_back({s, length / 2 * seen_at(beam.curve, s, value.normalized())});
+      seen += line.uneven.back().length;
+    }
+  line.even = seen / beam.curve.length();
+  for (int h = 0; h < intervals; ++h)
+    for (const int i : {2 * h, 2 * h + 1})
+      line.uneven[i].length -= line.even * (beam.home_place(h + 1) - beam.home_place(h)) / 2;
+  std::erase_if(line.uneven, [&](const LineLoad::Share& share) {
+    return std::abs(share.length) < nothing * beam.curve.length();
+  });
+  return line;
+}
+
 }  // namespace
 
 void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
@@ -73,6 +105,10 @@ void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
       case CaseLoad::Kind::force_per_length:
         model.forces.push_back(
             LineLoad{b, frame.direction_to_local(load.value), time_of(load, resolved.analysis)});
+        break;
+      case CaseLoad::Kind::force_per_projected_length:
+        model.forces.push_back(
+            projected_load(load, b, model.beams[b], frame.direction_to_local(load.value), resolved.analysis));
         break;
       case CaseLoad::Kind::torque_per_length:
         model.forces.push_back(LineTorque{b, load.torque, time_of(load, resolved.analysis)});

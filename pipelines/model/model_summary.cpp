@@ -196,6 +196,7 @@ Json to_json(const Moment& load, const BuiltModel& built) { return load_json("mo
 Json to_json(const LineLoad& load, const BuiltModel& built) {
   Json json = load_json("force per length [N/m]", load.beam, load.value, load.time, built);
   json.update({{"direction", "fixed"}, {"place speed [m/s]", 0}});
+  if (load.even != 1) json["part that is seen"] = load.even;
   return json;
 }
 

@@ -521,5 +521,47 @@ TEST(RestingPlace, OnAGuideIsThatOfItsSpring) {
   EXPECT_NEAR(place("[20, 0, 0]", "[20, 0, 0]"), 16, 1e-6);
 }
 
+// ---- Loads by the length in plan ----
+
+// A cable that is drawn as a parabola with a sag f hangs so under an even load p in plan: H = p L^2/(8 f).
+TEST(ProjectedLoad, HoldsACableInAParabola) {
+  constexpr double p = 10, L = 100, f = 10;
+  const std::string cable = R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "c", "axis": { "nurbs": { "degree": 2, "knots": [0, 0, 0, 1, 1, 1],
+        "control_points": [[0, 0, 0], [50, 0, -20], [100, 0, 0]] } }, "stress_free": "straight",
+      "section": { "area": 1e-2, "second_moment": 1e-14 },
+      "material": { "density": 1000, "youngs_modulus": 1e12 }, "elements": { "count": 20 } }],
+    "supports": [{ "beam": "c", "at": "start", "type": "pinned", "name": "A" },
+                 { "beam": "c", "at": "end", "type": "pinned", "name": "B" }],
+    "loads": [{ "beam": "c", "force_per_projected_length": [0, 0, -10] }], "analysis": { "type": "static" },
+    "output": { "report": false, "probes": [{ "name": "quarter", "beam": "c", "at": { "near": [25, 0, -7.5] } }] } })";
+  const CaseRun run = test::run_text(cable);
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("A.fz [N]"), p * L / 2, 1e-4);
+  EXPECT_NEAR(run.last("B.fz [N]"), p * L / 2, 1e-4);
+  EXPECT_NEAR(run.last("B.fx [N]"), p * L * L / (8 * f), 0.1);
+  EXPECT_NEAR(run.last("quarter.uz [m]"), 0, 1e-3 * f);
+  // By the length along the axis, as its weight: more at the ends, and not in a parabola.
+  const CaseRun along = test::run_text(cable, {R"(loads=[{"beam": "c", "force_per_length": [0, 0, -10]}])"});
+  EXPECT_GT(along.last("A.fz [N]"), 1.02 * p * L / 2);
+  EXPECT_GT(std::abs(along.last("quarter.uz [m]")), 1e-3);
+}
+
+// A rafter over 3 m in plan, with a slope of 4 to 3: p L^2/8 in its middle, by the length in plan.
+TEST(ProjectedLoad, BendsARafterByItsLengthInPlan) {
+  const std::string rafter = R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "r", "axis": { "polyline": [[0, 0, 0], [3, 0, 4]] },
+      "section": { "rectangle": [0.1, 0.2] }, "material": "steel", "elements": { "count": 2 } }],
+    "supports": [{ "beam": "r", "at": "start", "type": "pinned", "name": "A" },
+                 { "beam": "r", "at": "end", "type": "guided", "direction": [3, 0, 4] }],
+    "loads": [{ "beam": "r", "force_per_projected_length": [0, 0, -1000] }], "analysis": { "type": "static" },
+    "output": { "report": false, "probes": [{ "name": "m", "beam": "r", "at": { "fraction": 0.5 } }] } })";
+  for (const char* torsion : {"false", "true"}) {
+    const CaseRun run = test::run_text(rafter, {std::string("beams[0].torsion=") + torsion});
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_NEAR(std::abs(run.last("m.moment [N m]")), 1000 * 3 * 3 / 8.0, 1) << torsion;
+  }
+}
+
 }  // namespace
 }  // namespace nurbeam

@@ -4,7 +4,13 @@
 namespace nurbeam {
 
 struct CaseLoad {
-  enum class Kind { force, moment, force_per_length, torque_per_length } kind = Kind::force;
+  enum class Kind {
+    force,
+    moment,
+    force_per_length,
+    force_per_projected_length,
+    torque_per_length
+  } kind = Kind::force;
   std::string path;
   std::string beam;
   Place at;                                         ///< for force and moment
@@ -37,6 +43,9 @@ inline Fields<CaseLoad> load_fields() {
           value("moment", Dimension::moment, L::Kind::moment, "point moment").beside("at"),
           value("force_per_length", Dimension::force_per_length, L::Kind::force_per_length,
                 "per metre of reference arc length"),
+          value("force_per_projected_length", Dimension::force_per_length,
+                L::Kind::force_per_projected_length,
+                "per metre of the drawn axis as seen along the force: snow and ice by the length in plan"),
           field_by<L>("torque_per_length", quantity(Dimension::torque_per_length, plausible(-1e12, 1e12)),
                       "about the tangent of a beam with torsion, per metre of reference arc length",
                       [](const Json& json, const std::string&, L& load, Findings&) {
@@ -59,8 +68,8 @@ inline Fields<CaseLoad> load_fields() {
           field(&L::time, "time", table(Dimension::number, {.lower = -1e12, .upper = 1e12}),
                 "factor over time, linear between rows, constant outside"),
       },
-      {{{"force", "moment", "force_per_length", "torque_per_length"}, required},
-       {{"at", "force_per_length", "torque_per_length"}, false}}};
+      {{{"force", "moment", "force_per_length", "force_per_projected_length", "torque_per_length"}, required},
+       {{"at", "force_per_length", "force_per_projected_length", "torque_per_length"}, false}}};
 }
 
 }  // namespace nurbeam

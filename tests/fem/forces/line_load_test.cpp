@@ -1,5 +1,9 @@
 #include "fem/forces/line_load.h"
 
+#include <utility>
+
+#include "fem/system/observables.h"
+#include "fem/system/with_assembly.h"
 #include "tests/fem/bent_beams.h"
 #include "tests/fem/bound_force.h"
 
@@ -72,6 +76,45 @@ void check_work() {
 TEST(LineLoad, DoesItsWorkOnWhatTheBeamMoves) {
   check_work<2>();
   check_work<3>();
+}
+
+// The uneven part of a load is forces at places: to the last bit what point loads give.
+template <int D>
+void check_shares() {
+  std::mt19937 random(3);
+  const Eigen::Vector3d f = value(D);
+  const auto system = [&](bool as_shares) {
+    ModelBuilder builder(D);
+    const int beam = add_bent_beam(builder, D);
+    LineLoad load{beam, f, ramp, 0.9};
+    if (as_shares) load.uneven = {{0.3, 0.2}, {0.8, -0.05}};
+    builder.add(load);
+    if (!as_shares)
+      for (const auto& [s, length] : {std::pair{0.3, 0.2}, {0.8, -0.05}})
+        builder.add(PointLoad{{.beam = beam, .s = s, .value = length * f, .time = ramp}});
+    return BeamSystem(builder.build());
+  };
+  const BeamSystem shares = system(true), points = system(false);
+  const AffineMap map = random_map(D, random, 0.1), later = random_map(D, random, 0.1);
+  State from = mapped_drawing(shares, map), to = mapped_drawing(shares, later);
+  from.t = 0.2;
+  to.t = 0.6;
+  const auto dynamics = [&](const BeamSystem& of) {
+    Eigen::VectorXd rows(of.coordinate_count()), none(0);
+    of.residual(from, rows, none);
+    return rows;
+  };
+  EXPECT_LT((dynamics(shares) - dynamics(points)).norm(), 1e-13);
+  EXPECT_NEAR(load_work(shares, from, to), load_work(points, from, to), 1e-12);
+  const auto actions = [&](const BeamSystem& of) {
+    return with_assembly(of, [&](const auto& a) { return a.actions(from); });
+  };
+  ASSERT_EQ(actions(shares).size(), 2u);
+  for (int i = 0; i < 2; ++i) EXPECT_LT((actions(shares)[i].force - actions(points)[i].force).norm(), 1e-15);
+}
+TEST(LineLoad, HasAnUnevenPartOfForcesAtPlaces) {
+  check_shares<2>();
+  check_shares<3>();
 }
 
 }  // namespace nurbeam::testing::line_load_test
