@@ -379,8 +379,13 @@ class ExpressionParser {
         if (f.arguments == arguments.size()) return call(f.operation, std::move(arguments));
       }
     at_ = from;
-    if (!of_that_name)
-      fail("there is no function " + in_quotes(called) + known_names(called, function_names()));
+    if (!of_that_name) {
+      const bool is_moment = called == "end" || called == "start";
+      fail("there is no function " + in_quotes(called) +
+           (is_moment
+                ? "; did you mean \"at(" + called + ", ...)\", the value of a history at the " + called + "?"
+                : known_names(called, function_names())));
+    }
     fail(called + " takes " + std::to_string(of_that_name->arguments) + " argument(s), not " +
          std::to_string(arguments.size()));
   }

@@ -9,6 +9,18 @@ namespace nurbeam {
 
 namespace {
 
+/// A value with its unit, where it has one.
+std::string with_unit(double value, const std::string& unit, int digits) {
+  return text_of(value, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+/// "mm by m": of a derivative.
+std::string unit_of_derivative(const StudyQuantity& quantity, const StudyVariable& variable) {
+  const auto part = [](const std::string& unit) { return unit.empty() ? std::string("1") : unit; };
+  if (quantity.unit.empty() && variable.unit.empty()) return "";
+  return variable.unit.empty() ? quantity.unit : part(quantity.unit) + " per " + variable.unit;
+}
+
 void tell(std::ostream&, const StudyFile&, std::monostate) {}
 
 void tell(std::ostream& out, const StudyFile& study, const GradientResult& result) {
@@ -16,9 +28,12 @@ void tell(std::ostream& out, const StudyFile& study, const GradientResult& resul
   for (const Variant& variant : result.variants)
     for (std::size_t k = 0; k < variant.gradient.size(); ++k) {
       const StudyQuantity& quantity = study.quantities[k];
-      out << quantity.name << " = " << text_of(variant.quantities[k], 8) << " " << quantity.unit << "\n";
-      for (std::size_t i = 0; i < free.size(); ++i)
-        out << "  by " << study.variables[free[i]].name << "  " << text_of(variant.gradient[k][i], 8) << "\n";
+      out << quantity.name << " = " << with_unit(variant.quantities[k], quantity.unit, 8) << "\n";
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        const StudyVariable& by = study.variables[free[i]];
+        out << "  by " << by.name << "  "
+            << with_unit(variant.gradient[k][i], unit_of_derivative(quantity, by), 8) << "\n";
+      }
     }
 }
 
@@ -50,8 +65,8 @@ void tell(std::ostream& out, const StudyFile& study, const ReliabilityResult& re
         << " variants are not done (see study.csv): they count as ones that do not fail\n";
   const std::vector<std::size_t> free = study.free_variables();
   for (std::size_t i = 0; i < result.design_point.size(); ++i)
-    out << "  " << study.variables[free[i]].name << " = " << text_of(result.design_point[i], 6)
-        << " at the design point"
+    out << "  " << study.variables[free[i]].name << " = "
+        << with_unit(result.design_point[i], study.variables[free[i]].unit, 6) << " at the design point"
         << (result.importance.empty() ? "" : ", importance " + text_of(result.importance[i], 3)) << "\n";
 }
 
@@ -90,7 +105,8 @@ void tell(std::ostream& out, const StudyFile& study, const ProbabilityResult& re
   std::size_t random = 0;
   for (std::size_t i = 0; i < study.variables.size(); ++i)
     if (const StudyVariable& variable = study.variables[i]; variable.is_random) {
-      out << "    " << variable.name << " = " << text_of(values[i], 6) << " at the design point";
+      out << "    " << variable.name << " = " << with_unit(values[i], variable.unit, 6)
+          << " at the design point";
       if (!result.form.importance.empty())
         out << ", importance " << text_of(result.form.importance[random++], 3);
       out << "\n";
@@ -107,9 +123,10 @@ void tell(std::ostream& out, const StudyFile& study, const OptimumResult& result
   for (std::size_t i = 0; i < std::min(most_lines, result.points.size()); ++i) {
     const std::vector<double> values = all_values(study, result.points[i]);
     for (std::size_t k = 0; k < values.size(); ++k)
-      out << "  " << study.variables[k].name << " = " << text_of(values[k], 8);
+      out << "  " << study.variables[k].name << " = " << with_unit(values[k], study.variables[k].unit, 8);
     for (std::size_t k = 0; k < study.quantities.size(); ++k)
-      out << "  " << study.quantities[k].name << " = " << text_of(result.quantities[i][k], 8);
+      out << "  " << study.quantities[k].name << " = "
+          << with_unit(result.quantities[i][k], study.quantities[k].unit, 8);
     out << "\n";
   }
   if (result.points.size() > most_lines)
@@ -127,13 +144,15 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
   const auto& calibration = std::get<StudyCalibration>(study.task);
   const std::vector<std::size_t> free = study.free_variables();
   for (std::size_t i = 0; i < free.size(); ++i) {
-    out << study.variables[free[i]].name << " = " << text_of(result.point[i], 6);
+    const std::string& unit = study.variables[free[i]].unit;
+    out << study.variables[free[i]].name << " = ";
     if (result.sd.empty()) {
-      out << "\n";
+      out << with_unit(result.point[i], unit, 6) << "\n";
       continue;
     }
-    out << " +- " << text_of(result.sd[i], 3) << "  (" << text_of(result.lower[i], 6) << " to "
-        << text_of(result.upper[i], 6) << " with " << text_of(100 * calibration.confidence) << " %)\n";
+    out << text_of(result.point[i], 6) << " +- " << with_unit(result.sd[i], unit, 3) << "  ("
+        << text_of(result.lower[i], 6) << " to " << text_of(result.upper[i], 6) << " with "
+        << text_of(100 * calibration.confidence) << " %)\n";
     for (std::size_t k = 0; k < i; ++k)
       out << "  correlation with " << study.variables[free[k]].name << " "
           << text_of(result.covariance[i][k] / (result.sd[i] * result.sd[k]), 3) << "\n";
@@ -148,8 +167,10 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
 std::string study_plan_text(const StudyFile& study) {
   const std::size_t free = study.free_variables().size();
   std::ostringstream out;
-  out << free << " variables that vary, " << study.variables.size() - free << " made of them, "
-      << study.quantities.size() << " quantities\n";
+  const std::size_t quantities = study.quantities.size();
+  out << free << (free == 1 ? " variable that varies, " : " variables that vary, ")
+      << study.variables.size() - free << " made of them, " << quantities
+      << (quantities == 1 ? " quantity\n" : " quantities\n");
   std::visit(
       [&](const auto& task) {
         using Task = std::decay_t<decltype(task)>;

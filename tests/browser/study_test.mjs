@@ -144,6 +144,15 @@ for (const [study, narrow] of [['grid', 390], ['many', 390], ['lost', 390]]) {
   }, narrow);
 }
 
+for (const study of ['grid', 'many', 'lost', 'front', 'derivatives', 'indices', 'short', 'risk']) {
+  study_test(`on a phone no column of a table is out of sight: ${study}`, study, async (page) => {
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'off the page');
+    const cut = await page.$$eval('.wide', (all) => all.filter((each) => each.scrollWidth > each.clientWidth + 1)
+      .map((each) => each.textContent.slice(0, 40)));
+    assert.deepEqual(cut, []);
+  }, 390);
+}
+
 study_test('a study of which no variant is done shows these', 'nothing', async (page) => {
   assert.deepEqual(await texts(page, 'h2'), ['Variants: one line each', 'Variants that are not done']);
   assert.match(await page.textContent('#counts'), /none of 3 variants is done: 3 rejected/);

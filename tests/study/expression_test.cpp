@@ -89,6 +89,7 @@ TEST(Expression, SaysWhereItIsWrong) {
   EXPECT_NE(complaint("2 x").find("3: expected an operator"), std::string::npos);
   EXPECT_NE(complaint("maxx(a.b)").find("1: there is no function \"maxx\"; did you mean \"max\"?"),
             std::string::npos);
+  EXPECT_NE(complaint("2 * end(a.b)").find("did you mean \"at(end, ...)\""), std::string::npos);
   EXPECT_NE(complaint("sqrt(1, 2)").find("sqrt takes 1 argument(s), not 2"), std::string::npos);
   EXPECT_NE(complaint("'body").find("never closed"), std::string::npos);
   EXPECT_NE(complaint("1 $ 2").find("3: expected an operator"), std::string::npos);
