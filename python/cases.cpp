@@ -3,9 +3,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <functional>
+#include <sstream>
 
+#include "pipelines/case/case_check.h"
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_schema.h"
+#include "pipelines/case/host_keys.h"
+#include "pipelines/case/quantity.h"
 #include "pipelines/model/model_summary.h"
 #include "pipelines/run/motion_mesh.h"
 #include "python/bindings.h"
@@ -31,6 +35,32 @@ std::tuple<std::string, std::string, std::string> with_value(const std::string& 
   Json json = Json::parse(text);
   const AppliedOverride applied = set_value(json, path, Json::parse(value));
   return {json.dump(), applied.path, applied.problem};
+}
+
+// The shape of an object or of the items of an array.
+const Shape& object_in(const Shape& shape) {
+  if (shape.kind == Shape::Kind::array) return object_in(shape.items[0]);
+  if (shape.kind == Shape::Kind::either) return object_in(shape.items[1]);
+  return shape;
+}
+
+// What is wrong with a part of a case, which may become whole later. `place`: keys from the case on,
+// "beams.section": (findings).
+PlainFindings check_part_at(const std::string& place, const std::string& text) {
+  const Shape* shape = &host_keys();
+  std::istringstream keys(place);
+  for (std::string key; std::getline(keys, key, '.');) shape = &object_in(find_key(*shape, key)->shape);
+  Findings findings(place);
+  Json json = Json::parse(text);
+  check_part(*shape, json, findings);
+  return plain(findings.take());
+}
+
+// A length [m]; ValueError for a text that is none.
+double length_of(const std::string& text) {
+  const ParsedQuantity length = parse_quantity(text, Dimension::length);
+  if (!length.value) throw py::value_error(length.error);
+  return *length.value;
 }
 
 // (the case or nothing, findings).
@@ -80,6 +110,8 @@ PlainFindings divide_for_motion_of(BuiltCase& c, bool has_functions) {
 void bind_cases(py::module_& module) {
   module.def("case_json", &case_json, py::arg("file"), py::arg("overrides"));
   module.def("with_value", &with_value, py::arg("text"), py::arg("path"), py::arg("value"));
+  module.def("check_part", &check_part_at, py::arg("place"), py::arg("text"));
+  module.def("length_of", &length_of, py::arg("text"));
   module.def("build", &build, py::arg("text"), py::arg("file"));
   module.def("schema", &case_file_schema);
   py::class_<BuiltCase, std::shared_ptr<BuiltCase>>(module, "BuiltCase", "A case and its model.")

@@ -112,6 +112,11 @@ bool is_place(const Shape& shape) {
          find_key(shape.items[1], "fraction") && find_key(shape.items[1], "near");
 }
 
+bool may_have_rows(const Shape& shape) {
+  return shape.kind == Kind::table ||
+         (shape.kind == Kind::either && std::any_of(shape.items.begin(), shape.items.end(), may_have_rows));
+}
+
 /// What was meant by a place of a beam that is none: "middle", or a number.
 std::string meant_place(const Json& value) {
   const auto fraction = [](const std::string& x) { return "{ \"fraction\": " + x + " }"; };
@@ -131,10 +136,12 @@ std::string meant_place(const Json& value) {
 /// null (it has been reported), so that what is left can be checked further.
 class Checker {
  public:
-  explicit Checker(Findings& findings) : findings_(findings) {}
+  /// `whole`: whether a value must have all that it needs.
+  explicit Checker(Findings& findings, bool whole) : findings_(findings), whole_(whole) {}
 
   /// Whether the value is usable.
   bool check(const Shape& shape, Json& value, const std::string& path) {
+    if (!whole_ && may_have_rows(shape) && value.is_object() && value.contains("file")) return true;
     switch (shape.kind) {
       case Kind::object:
         return check_object(shape, value, path);
@@ -187,6 +194,7 @@ class Checker {
 
   void check_presence(const Shape& shape, const Json& value, const std::string& path) {
     for (const Key& key : shape.keys) {
+      if (!whole_) break;
       if (key.required && !value.contains(key.name))
         findings_.error(path, in_quotes(key.name) + " is missing (" + key.description + ")");
       if (value.contains(key.name) && !key.needs.empty() && !value.contains(key.needs))
@@ -198,7 +206,7 @@ class Checker {
                    [&](const std::string& key) { return value.contains(key); });
       if (given.size() > 1)
         findings_.error(path, quoted_list(given) + " exclude each other; give one of them");
-      else if (given.empty() && alternatives.required)
+      else if (given.empty() && alternatives.required && whole_)
         findings_.error(path, "give one of " + quoted_list(alternatives.keys));
     }
   }
@@ -345,12 +353,17 @@ class Checker {
   }
 
   Findings& findings_;
+  bool whole_;
 };
 
 }  // namespace
 
 bool check_shape(const Shape& shape, Json& value, Findings& findings) {
-  return Checker(findings).check(shape, value, "");
+  return Checker(findings, true).check(shape, value, "");
+}
+
+bool check_part(const Shape& shape, Json& value, Findings& findings) {
+  return Checker(findings, false).check(shape, value, "");
 }
 
 }  // namespace nurbeam

@@ -8,4 +8,7 @@ namespace nurbeam {
 /// value is usable.
 bool check_shape(const Shape& shape, Json& value, Findings& findings);
 
+/// The same of a value that may become whole later, and whose files are not read: what it lacks is no error.
+bool check_part(const Shape& shape, Json& value, Findings& findings);
+
 }  // namespace nurbeam

@@ -281,8 +281,9 @@ class Curve:
         return np.asarray(np.linalg.norm(np.cross(first, second), axis=-1) / np.linalg.norm(first, axis=-1) ** 3)
 
     def parameter_at(self, length: npt.ArrayLike) -> Array:
-        """The parameters where the curve is so long from its start on [m]; one number or an array of them."""
-        s = np.asarray(length, dtype=float)
+        """The parameters where the curve is so long from its start on [m]; one number, a text with a unit ("10 m") or an
+        array of numbers."""
+        s = np.asarray(_core.length_of(length) if isinstance(length, str) else length, dtype=float)
         return np.array([self._nurbs.parameter_at(float(each)) for each in s.ravel()]).reshape(s.shape)[()]
 
     def reversed(self) -> Curve:

@@ -38,8 +38,23 @@ Force = Callable[[float, npt.NDArray[np.float64], npt.NDArray[np.float64]], Any]
 MotionLaw = Callable[[float], Any]
 
 
+def _complain(place: str, value: Any) -> None:
+    """CaseError where a part of a case has what cannot be, whatever may still be added to it; `place`: "beams.section"."""
+    plain = _json(value)
+    wrong = [Finding(f.severity, f"{place}: {f.where}", f.message) for f in _not_finite(plain)]
+    found = findings_of(_core.check_part(place, json.dumps(_finite(plain))))
+    wrong += [finding for finding in found if finding.severity == "error"]
+    if wrong:
+        raise CaseError(wrong)
+
+
 class Section(dict[str, Any]):
-    """A cross-section by the keys of the case file: `Section(area="2 cm^2", second_moment=3e-9)`."""
+    """A cross-section by the keys of the case file: `Section(area="2 cm^2", second_moment=3e-9)`. A wrong key or value is
+    a CaseError."""
+
+    def __init__(self, **keys: Any):
+        _complain("beams.section", keys)
+        super().__init__(**keys)
 
 
 class Circle(Section):
@@ -71,24 +86,23 @@ class Pipe(Section):
             bore = _difference(radius, wall)
         assert bore is not None
         _check_size("bore", bore, including=True)
+        if not _metres(bore) < _metres(radius):
+            raise ValueError(f"bore is {bore!r} and radius {radius!r}; the bore, an inner radius, must be less than the radius")
         super().__init__(radius=radius, bore=bore, **keys)
 
 
+def _metres(size: Quantity) -> float:
+    return _core.length_of(size) if isinstance(size, str) else float(size)
+
+
 def _difference(a: Quantity, b: Quantity) -> Quantity:
+    """In the unit of both, else in metres."""
+    difference = _metres(a) - _metres(b)
     if isinstance(a, str) and isinstance(b, str):
-        (x, unit), (y, other) = (_number_and_unit(each) for each in (a, b))
+        unit, other = (text.lstrip(" +-.0123456789eE") for text in (a, b))
         if unit == other:
-            return f"{x - y:.15g} {unit}"
-    if isinstance(a, str) or isinstance(b, str):
-        raise TypeError(f"radius is {a!r} and wall {b!r}; give both as numbers in metres or in one unit, or bore")
-    return a - b
-
-
-def _number_and_unit(text: str) -> tuple[float, str]:
-    match = re.fullmatch(r"\s*([-+.\deE]+)\s*(\S.*?)\s*", text)
-    if not match:
-        raise ValueError(f'{text!r} is no size; expected a number and a unit, as in "5 mm"')
-    return float(match[1]), match[2]
+            return f"{difference / _core.length_of(f'1 {unit}'):.15g} {unit}"
+    return difference
 
 
 class Rectangle(Section):
@@ -125,6 +139,7 @@ class Material(dict[str, Any]):
     `thermal_expansion` [1/K], `shear_modulus` [Pa], `poissons_ratio`, `law` ("green", "hooke" or rows)."""
 
     def __init__(self, density: Quantity, youngs_modulus: Quantity, **keys: Any):
+        _complain("beams.material", {"density": density, "youngs_modulus": youngs_modulus, **keys})
         super().__init__(density=density, youngs_modulus=youngs_modulus, **keys)
 
 
@@ -217,8 +232,9 @@ class Model:
     """A model: beams, bodies, what holds and loads them, and what is asked of them.
 
     It is a case as the case file has it, built part by part: the methods take the keys of the case file by their names
-    (docs/case-reference.md), quantities are numbers in SI units or texts with a unit ("5 mm"). What is wrong is found
-    when the model is checked or run: CaseError lists all of it with its place.
+    (docs/case-reference.md), quantities are numbers in SI units or texts with a unit ("5 mm"). A wrong key or value is a
+    CaseError where it is written; what does not fit together is found when the model is checked or run: CaseError lists all
+    of it with its place.
 
     Parameters
     ----------
@@ -253,8 +269,11 @@ class Model:
 
     def add(self, kind: str, **keys: Any) -> dict[str, Any]:
         """Adds an item to a list of the case: `model.add("loads", beam="cable", at="end", force=[0, 0, -100])`. All other
-        `add_...` do this. Returns the item, which may be changed."""
+        `add_...` do this. CaseError for a wrong key or value. Returns the item, which may be changed."""
+        if kind not in _case_lists():
+            raise TypeError(unknown("list of a case", kind, _case_lists()))
         item: dict[str, Any] = _json({k: _place(v) if k == "at" else v for k, v in keys.items()})
+        _complain(kind, item)
         self.case.setdefault(kind, []).append(item)
         return item
 
@@ -379,24 +398,29 @@ class Model:
         force: Any = None,
         moment: Any = None,
         force_per_length: Any = None,
+        force_per_projected_length: Any = None,
         torque_per_length: Quantity | None = None,
         follower: bool | None = None,
         time: Any = None,
         **keys: Any,
     ) -> Load:
-        """A force [N] or moment [N m] at a place, or a force [N/m] or torque [N m/m] per length. `time`: rows
+        """A force [N] or moment [N m] at a place, or a force [N/m] or torque [N m/m] per length, or a force per length as
+        seen along it (`force_per_projected_length`: snow, ice). `time`: rows
         [time, factor]; `follower`: it turns with the section; `moves`: {"speed": ...}; `offset`: [x, y] from the axis."""
         self.add(
             "loads",
             beam=beam, at=at, force=force, moment=moment, force_per_length=force_per_length,
+            force_per_projected_length=force_per_projected_length,
             torque_per_length=torque_per_length, follower=follower, time=time, **keys,
         )  # fmt: skip
         return Load(len(self.case["loads"]) - 1)
 
     def add_probe(self, name: str, beam: Beam | str, at: Place, **keys: Any) -> None:
         """A point of a beam whose motion and section forces are recorded under the name."""
+        probe = _json({"name": name, "beam": beam, "at": _place(at), **keys})
+        _complain("output.probes", probe)
         output = self.case.setdefault("output", {})
-        output.setdefault("probes", []).append(_json({"name": name, "beam": beam, "at": _place(at), **keys}))
+        output.setdefault("probes", []).append(probe)
 
     def add_force(
         self,
@@ -662,6 +686,12 @@ def _with(kind: type[Model], state: dict[str, Any]) -> Model:
 @functools.lru_cache(maxsize=None)
 def _case_keys() -> frozenset[str]:
     return frozenset(json.loads(_core.schema())["properties"])
+
+
+@functools.lru_cache(maxsize=None)
+def _case_lists() -> frozenset[str]:
+    properties = json.loads(_core.schema())["properties"]
+    return frozenset(key for key, of in properties.items() if of.get("type") == "array" and key != "gravity")
 
 
 def _has_text(value: Any) -> bool:

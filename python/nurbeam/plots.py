@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -109,11 +111,23 @@ def save_animation(shown: matplotlib.animation.FuncAnimation, file: str, fps: fl
     ending = file.rpartition(".")[2].lower()
     if ending == "html":
         with open(file, "w", encoding="utf-8") as stream:
-            stream.write(shown.to_jshtml(fps=fps))
+            stream.write(_without_network(shown.to_jshtml(fps=fps)))
     elif ending in ("gif", "mp4"):
         shown.save(file, writer="pillow" if ending == "gif" else "ffmpeg", fps=fps)
     else:
         raise ValueError(f'the ending of "{file}" names no animation; known are .gif .mp4 .html')
+
+
+def _without_network(page: str) -> str:
+    """A page of matplotlib's, whose buttons have signs of the reader's own fonts in place of a font from the network."""
+    signs = {"minus": "\N{MINUS SIGN}", "fast-backward": "|\N{BLACK LEFT-POINTING DOUBLE TRIANGLE}",
+             "step-backward": "|\N{BLACK LEFT-POINTING TRIANGLE}", "play fa-flip-horizontal": "\N{BLACK LEFT-POINTING TRIANGLE}",
+             "pause": "||", "play": "\N{BLACK RIGHT-POINTING TRIANGLE}", "step-forward": "\N{BLACK RIGHT-POINTING TRIANGLE}|",
+             "fast-forward": "\N{BLACK RIGHT-POINTING DOUBLE TRIANGLE}|", "plus": "+"}  # fmt: skip
+    page = re.sub(r"<link[^>]*https?://[^>]*>", "", page)
+    for name, sign in signs.items():
+        page = page.replace(f'<i class="fa fa-{name}"></i>', f"<span>{sign}</span>")
+    return page
 
 
 def along(

@@ -471,8 +471,8 @@ class Results(Sequence[Snapshot]):
         self, file: str | os.PathLike[str] | None = None, fps: float = 20, exaggerate: float = 1
     ) -> matplotlib.animation.FuncAnimation:
         """The motion as an animation by matplotlib, seen along the axis in which the beams extend least; `exaggerate` as in
-        `plot_shape`. In a notebook `IPython.display.HTML(results.animate().to_jshtml())` shows it. With `file`, a .gif, .mp4
-        or .html, it is written there; `results.report("x.html")` has the 3-D view."""
+        `plot_shape`. With `file`, a .gif, .mp4 or .html, it is written there; the .html needs no network. In a notebook
+        `IPython.display.HTML(results.animate().to_jshtml())` shows it; `results.report("x.html")` has the 3-D view."""
         from . import plots
 
         moments = [

@@ -98,6 +98,52 @@ def test_wrong_words_complain_where_they_stand():
         nb.load("nix.json")
 
 
+@pytest.mark.parametrize(
+    "wrong, says",
+    [
+        (lambda m, b: nb.Circle("6 mn"), 'radius: unknown unit "mn"'),
+        (lambda m, b: nb.Circle("6 kg"), "radius"),
+        (lambda m, b: nb.Section(radus=0.1), 'did you mean "radius"'),
+        (lambda m, b: nb.Pipe("6 mm", bore="8 mm"), "bore is '8 mm' and radius '6 mm'"),
+        (lambda m, b: nb.Pipe(0.006, bore=0.006), "must be less than the radius"),
+        (lambda m, b: nb.Material("210 GPa", 7850), "density"),
+        (lambda m, b: nb.Material(210e9, 7850), "density"),
+        (lambda m, b: nb.Material(7850, 210e9, poisson=0.3), 'did you mean "poissons_ratio"'),
+        (lambda m, b: m.add_beam([[0, 0, 0], [1, 0, 0]], section=nb.Circle(0.01), material="stell"), 'did you mean "steel"'),
+        (lambda m, b: m.add_support(b, at="start", type="fixed"), 'did you mean "clamped"'),
+        (lambda m, b: m.add_support(b, at="start", type="hinge"), 'did you mean "pinned"'),
+        (lambda m, b: m.add_support(b, at="start", type="roller"), 'did you mean "guided"'),
+        (lambda m, b: m.add_support(b, at="middle"), '"fraction": 0.5'),
+        (lambda m, b: m.add_load(b, at="end", force=-100), r"force: is the number -100; expected \[x, y, z\]"),
+        (lambda m, b: m.add_load(b, at="end", force=[0, 0, -1], moment=[0, 1, 0]), "exclude each other"),
+        (lambda m, b: m.add_body("ball", mass="80,5 kg"), "mass"),
+        (lambda m, b: m.add_body("ball", mass=math.nan), "mass: is nan"),
+        (lambda m, b: m.add_probe("p", b, at="middle"), "probes: at: "),
+    ],
+)
+def test_wrong_values_complain_where_they_stand(wrong, says):
+    model = bar()
+    before = json.dumps(model.case)
+    with pytest.raises(ValueError, match=says):
+        wrong(model, "b")
+    assert json.dumps(model.case) == before
+
+
+def test_a_list_that_no_case_has_is_refused():
+    with pytest.raises(TypeError, match='did you mean "loads"'):
+        bar().add("load", beam="b")
+    item = bar().add("loads", beam="b", at="end")
+    item["force"] = [0, 0, -1]  # what an item lacks may come later
+
+
+def test_lengths_may_have_units():
+    curve = nb.Curve.line([0, 0, 0], [2, 0, 0])
+    assert np.allclose(curve(curve.parameter_at("50 cm")), [0.5, 0, 0])
+    with pytest.raises(ValueError, match="unit"):
+        curve.parameter_at("50 kg")
+    assert nb.Pipe("1 in", wall="2.4 mm")["bore"] == pytest.approx(0.023)
+
+
 def test_connectors_are_added_by_their_ends():
     model = nb.Model()
     cable = model.add_beam([[0, 0, 0], [9, 0, 0]], section=nb.Circle("6 mm"), material="steel", elements=4)
@@ -165,5 +211,8 @@ def test_results_move(tmp_path):
     results = model.run(end_time=0.01, step=1e-3, every=2e-3)
     results.animate(tmp_path / "bar.gif")
     assert (tmp_path / "bar.gif").read_bytes().startswith(b"GIF8")
+    results.animate(tmp_path / "bar.html")
+    page = (tmp_path / "bar.html").read_text(encoding="utf-8")
+    assert "https:" not in page and "http:" not in page and 'class="fa' not in page and page.count("<button") == 9
     with pytest.raises(ValueError, match="known are .gif"):
         results.animate(tmp_path / "bar.avi")
