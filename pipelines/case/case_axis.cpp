@@ -191,9 +191,13 @@ void check_cad_file(const std::filesystem::path& file, const std::string& path, 
                              (is_directory ? "directory" : "device or pipe") + "; expected a " + cad_formats +
                              " file" + (is_directory ? known_names("", cad_files_in(file)) : ""));
   } else if (!std::filesystem::exists(status)) {
-    const std::vector<std::string> there = cad_files_in(file.parent_path());
+    const std::filesystem::path folder = file.parent_path();
+    const std::vector<std::string> there = cad_files_in(folder);
+    const std::string why = !std::filesystem::is_directory(folder, ignored)
+                                ? "; there is no folder " + in_quotes(folder.string())
+                                : "; no CAD file is in that folder";
     findings.error(path, "there is no file " + in_quotes(file.string()) +
-                             (there.empty() ? "; its folder has no CAD file (or is not there)"
+                             (there.empty() ? why + "; paths are relative to the case file"
                                             : known_names(file.filename().string(), there)));
   }
 }

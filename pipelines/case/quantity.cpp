@@ -224,7 +224,7 @@ UnitProduct parse_units(const std::string& text, std::string_view examples) {
     if (!unit) {
       product.error = name.empty()
                           ? "cannot read the unit from " + in_quotes(rest) + " on"
-                          : "unknown unit " + in_quotes(name) + known_names(name, unit_names(examples));
+                          : "unknown unit " + in_quotes(name) + nearest_question(name, unit_names(examples));
       return product;
     }
     rest.remove_prefix(letters);
@@ -241,6 +241,13 @@ UnitProduct parse_units(const std::string& text, std::string_view examples) {
   }
   if (sign == -1) product.error = "a unit is missing after \"/\"";
   return product;
+}
+
+/// Whether a unit is one of temperatures that do not begin at their absolute zero.
+bool is_scale_of_temperature(const std::string& unit) {
+  for (const char* scale : {"C", "degC", "F", "degF", "Celsius", "Fahrenheit"})
+    if (unit == scale) return true;
+  return false;
 }
 
 /// Not divided where that would only round: 15 degrees are 15 degrees.
@@ -287,7 +294,12 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   const bool has_unit = rest.find_first_not_of(' ') != std::string_view::npos;
   if (is_plain && has_unit) return failed("has a unit; expected a plain number");
   const UnitProduct product = parse_units(plain(rest), unit_examples(dimension));
-  if (!product.error.empty()) return failed(product.error + "; expected " + expected);
+  if (dimension == Dimension::temperature && is_scale_of_temperature(plain(rest)))
+    return failed(
+        "is a temperature; expected the difference from the one at which the beam is free of stress, in K: "
+        "\"20 K\" of a beam that was made at 20 degrees and is at 40");
+  if (!product.error.empty())
+    return failed(product.error + (product.error.ends_with('?') ? " Expected " : "; expected ") + expected);
   if (!has_unit && !is_plain) {
     return failed("has no unit; expected " + expected + "; a number without quotes is in " +
                   default_unit(dimension));

@@ -25,11 +25,16 @@ constexpr int place_digits = 9, size_digits = 6;
 
 std::string place(double s) { return "s = " + text_of(s, place_digits) + " m"; }
 
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
   const double L = beam.curve.length();
   if (beam.rigid) {
     out << "guide     " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
-        << text_of(L, place_digits) << " m, rigid, " << beam.curve.segment_count() << " CAD segments\n";
+        << text_of(L, place_digits) << " m, rigid, " << counted(beam.curve.segment_count(), "CAD segment")
+        << '\n';
     return;
   }
   double shortest = L, longest = 0;
@@ -44,8 +49,10 @@ void print_beam(std::ostream& out, const Beam& beam, double drawn_bending) {
   const auto size = [](double value) { return text_of(value, size_digits); };
   out << "beam      " << beam.name << ": " << (beam.is_ring() ? "a ring, " : "") << "length "
       << text_of(L, place_digits) << " m, mass " << size(L * p.mass_per_length) << " kg, "
-      << beam.curve.segment_count() << " CAD segments, " << beam.home.size() - 1 << " elements of "
-      << size(shortest) << " to " << size(longest) << " m, EA " << size(p.free_axial_stiffness()) << " N, ";
+      << counted(beam.curve.segment_count(), "CAD segment") << ", "
+      << counted(beam.home.size() - 1, "element") << " of " << size(shortest)
+      << (size(shortest) == size(longest) ? "" : " to " + size(longest)) << " m, EA "
+      << size(p.free_axial_stiffness()) << " N, ";
   if (p.sections)
     out << "EI1 " << size(p.sections->bending_1 * stretch) << ", EI2 "
         << size(p.sections->bending_2 * stretch) << ", EI12 " << size(p.sections->bending_product * stretch)

@@ -67,7 +67,8 @@ std::vector<int> chosen(const Conversion& conversion, const ImportReport& report
     if (!report.curves[i].hidden) shown.push_back(i);
   if (const std::size_t left = report.curves.size() - shown.size(); left > 0 && !shown.empty())
     way.say(Severity::note, report.file,
-            std::to_string(left) + " hidden curve(s) are left out; name them with --curve");
+            std::to_string(left) + (left == 1 ? " hidden curve is" : " hidden curves are") +
+                " left out; name " + (left == 1 ? "it" : "them") + " with --curve");
   if (shown.empty())
     throw std::invalid_argument(report.file + ": all its curves are hidden; name them with --curve");
   return shown;

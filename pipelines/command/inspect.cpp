@@ -148,7 +148,8 @@ void print_chains(std::ostream& out, const ImportReport& report, const std::vect
   const std::vector<ChainRow> chains = chain_rows(report, curves);
   out << "chains of curves: " << chains.size() << '\n';
   for (std::size_t i = 0; i < std::min(chains.size(), most_listed); ++i)
-    out << "  " << text_of(chains[i].length, 9) << " m" << (chains[i].closed ? ", closed" : "") << ": curves "
+    out << "  " << text_of(chains[i].length, 9) << " m" << (chains[i].closed ? ", closed" : "")
+        << (chains[i].curves.size() == 1 ? ": curve " : ": curves ")
         << list_of_curves(report, chains[i].curves) << '\n';
   print_rest(out, chains.size());
   const std::vector<Junction> found = junctions(report, gap_tolerance(report, {}));
@@ -161,7 +162,8 @@ void print_chains(std::ostream& out, const ImportReport& report, const std::vect
 }
 
 void print_report(std::ostream& out, const ImportReport& report) {
-  out << report.file << ": " << report.curves.size() << " curve(s), unit " << report.unit;
+  out << report.file << ": " << report.curves.size() << (report.curves.size() == 1 ? " curve" : " curves")
+      << ", unit " << report.unit;
   if (report.resolution > 0) out << ", resolution " << text_of(report.resolution, 9) << " m";
   out << '\n';
   const std::vector<CurveRow> curves = rows_of(report);

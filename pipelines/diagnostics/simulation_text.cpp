@@ -62,19 +62,35 @@ std::string slope_hint(const BeamModel& model) {
              : "";
 }
 
+bool is_eyelet(const BeamModel& model, int rider) {
+  return std::ranges::any_of(
+      model.constraints,
+      [&](const Constraint& constraint) {
+        const auto* held = std::get_if<HeldBody>(&constraint);
+        return held && held->body == model.riders[rider].body;
+      });
+}
+
 // On a beam that deforms bodies that come near each other are as good as met.
 std::string meeting_text(const Failure& failure, const BeamModel& model) {
   const Rider& joint = model.riders[failure.rider];
-  const std::string bodies = "sliding bodies \"" + model.body_of(joint).name + "\" and \"" +
-                             model.body_of(model.riders[failure.other]).name + "\" ",
+  const bool has_eyelet = is_eyelet(model, failure.rider) || is_eyelet(model, failure.other);
+  const auto named = [&](int rider) {
+    const std::string kind = !has_eyelet ? "" : is_eyelet(model, rider) ? "eyelet " : "sliding body ";
+    return kind + "\"" + model.body_of(model.riders[rider]).name + "\"";
+  };
+  const std::string both = (has_eyelet ? "" : "sliding bodies ") + named(failure.rider) + " and " +
+                           named(failure.other),
                     where = " on beam \"" + model.beam_of(joint).name +
                             "\" at t = " + text_of(failure.time, 8) + " s";
-  if (model.beam_of(joint).rigid) return bodies + "meet" + where + "; give a stop that keeps them apart";
-  return bodies + "are " + text_of(failure.distance, 3) + " m apart" + where + ", and nearer than " +
-         text_of(failure.nearest) +
-         " m, a twentieth of an element, their motion is not followed; give a stop between them "
-         "with a \"gap\" of at least " +
-         text_of(2 * failure.nearest) + " m, or more elements";
+  if (model.beam_of(joint).rigid) return both + " meet" + where + "; give a stop that keeps them apart";
+  const std::string near = both + " are " + text_of(failure.distance, 3) + " m apart" + where +
+                           ", and nearer than " + text_of(failure.nearest) +
+                           " m, a twentieth of an element, their motion is not followed; ";
+  if (has_eyelet)
+    return near + "nothing passes an eyelet: end the run before, place it elsewhere, or take more elements";
+  return near + "give a stop between them with a \"gap\" of at least " + text_of(2 * failure.nearest) +
+         " m, or more elements";
 }
 
 // Where an explicit method was unstable, how long its steps may be.
@@ -92,15 +108,35 @@ const char* step_hint(StepStatus status) {
   return "; a shorter \"step\" from the start, or a \"tolerance\", may help";
 }
 
+// That a model without supports moves as a whole.
+std::string unsupported_text(const BeamModel& model) {
+  constexpr std::size_t most = 3;
+  std::string beams;
+  for (std::size_t b = 0; b < std::min(most, model.beams.size()); ++b)
+    beams += (b == 0 ? "\"" : ", \"") + model.beams[b].name + "\"";
+  return "the model has no support: nothing holds beam " + beams +
+         (model.beams.size() > most ? ", ..." : "") +
+         (model.riders.empty() ? "" : " with what slides on it") + "; add \"supports\"";
+}
+
+// The beam on which a body slides.
+std::string slides_on_text(const std::string& body, const BeamModel& model) {
+  for (const Rider& joint : model.riders)
+    if (model.body_of(joint).name == body) return " on beam \"" + model.beam_of(joint).name + "\"";
+  return "";
+}
+
 // What moves where the tangent is singular.
 std::string free_part_text(const Failure& failure, const BeamModel& model) {
   const std::string singular = "the tangent is singular (is the model held everywhere?)";
+  if (model.constraints.empty() && model.connectors.empty()) return unsupported_text(model);
   if (!failure.loose) return singular;
   const LoosePart& loose = *failure.loose;
   const auto component = [](double value) { return text_of(std::abs(value) < 1e-3 ? 0 : value, 3); };
   const Eigen::Vector3d& d = loose.direction;
   return singular + ": nothing holds " +
-         (loose.is_body ? "body \"" + loose.name + "\"" : "beam \"" + loose.name + "\"") +
+         (loose.is_body ? "body \"" + loose.name + "\"" + slides_on_text(loose.name, model)
+                        : "beam \"" + loose.name + "\"") +
          ": in the motion that is free " +
          (loose.is_body ? "it moves" : "its place at s = " + text_of(loose.s, 6) + " m moves furthest") +
          " along [" + component(d[0]) + ", " + component(d[1]) + ", " + component(d[2]) + "]" +

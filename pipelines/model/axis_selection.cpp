@@ -227,7 +227,8 @@ AxisSelection named(const AxisFile& axis, const ImportReport& report, const Indi
     if (index >= count)
       return failure("curve", "index " + std::to_string(*axis.curve_index) +
                                   " is out of range: " + report.file + " has " + std::to_string(count) +
-                                  " curves: " + list_of_curves(report, all_curves(report)));
+                                  (count == 1 ? " curve: " : " curves: ") +
+                                  list_of_curves(report, all_curves(report)));
     if (std::find(candidates.begin(), candidates.end(), index) == candidates.end())
       return failure("curve", "index " + std::to_string(*axis.curve_index) +
                                   " is not among the curves of the part, layer and colour: " +

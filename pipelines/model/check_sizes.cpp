@@ -1,10 +1,13 @@
 #include "pipelines/model/check_sizes.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "nurbs/number_text.h"
 
@@ -26,6 +29,44 @@ double probable(double value, std::initializer_list<double> divisors, const IsPl
     if (is_plausible(part)) break;
   }
   return part;
+}
+
+// The normal of the plane in which all beams are drawn, or nearly, in the world; nothing where they are in
+// none, or on one line.
+std::optional<Eigen::Vector3d> normal_of_drawing(const BeamModel& model, const ModelFrame& frame) {
+  constexpr double flat = 0.4, straight = 1e-3;  // of the drawing's height; of its length
+  constexpr int parts = 3;
+  std::vector<Eigen::Vector3d> points;
+  for (const Beam& beam : model.beams)
+    for (int j = 0; j < beam.curve.segment_count(); ++j)
+      for (int i = 0; i <= parts; ++i)
+        points.push_back(
+            frame.to_world(beam.curve.position(beam.curve.arc_length(j, i / static_cast<double>(parts)))));
+  if (points.empty()) return std::nullopt;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) middle += p / static_cast<double>(points.size());
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : points) moments += (p - middle) * (p - middle).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments);
+  const Eigen::Vector3d sizes = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (sizes[0] > flat * sizes[1] || sizes[1] < straight * sizes[2]) return std::nullopt;
+  return axes.eigenvectors().col(0);
+}
+
+// Gravity up, or across a drawing that stands upright.
+void check_direction_of_gravity(const ResolvedCase& resolved, const BeamModel& model, const ModelFrame& frame,
+                                Findings& findings) {
+  constexpr double along = 0.95, upright = 0.3;  // cosines
+  const Eigen::Vector3d& g = resolved.gravity;
+  if (g.norm() == 0) return;
+  const std::string is = "is [" + text_of(g.x(), told_digits) + ", " + text_of(g.y(), told_digits) + ", " +
+                         text_of(g.z(), told_digits) + "], ",
+                    usual = "; that of the earth, with z upwards, is [0, 0, -9.81]";
+  if (g.z() > along * g.norm())
+    findings.warn("gravity", is + "which pulls upwards along z" + usual);
+  else if (const auto normal = normal_of_drawing(model, frame);
+           normal && std::abs(normal->dot(g)) > along * g.norm() && std::abs(normal->z()) < upright)
+    findings.warn("gravity", is + "across the upright plane in which all beams are drawn" + usual);
 }
 
 void check_gravity(const ResolvedCase& resolved, Findings& findings) {
@@ -137,14 +178,17 @@ double greatest_factor(const TimeTable& table) {
 
 void check_load(const CaseLoad& load, const Beam& beam, Findings& findings) {
   constexpr double greatest_strain = 1, small = 0.01;
-  const bool per_length = load.kind == CaseLoad::Kind::force_per_length;
+  const bool projected = load.kind == CaseLoad::Kind::force_per_projected_length,
+             per_length = projected || load.kind == CaseLoad::Kind::force_per_length;
   if (beam.rigid || (load.kind != CaseLoad::Kind::force && !per_length)) return;
   const double EA = beam.properties.axial_stiffness, length = per_length ? beam.curve.length() : 1,
                force = load.value.norm() * length * greatest_factor(load.time);
   if (!(force > greatest_strain * EA)) return;
   const double part = probable(force, {1e3, 1e6, 1e9}, [&](double f) { return f <= small * EA; }) / force;
   const std::string unit = per_length ? " N/m" : " N";
-  findings.warn(load.path + (per_length ? ".force_per_length" : ".force"),
+  findings.warn(load.path + (projected    ? ".force_per_projected_length"
+                             : per_length ? ".force_per_length"
+                                          : ".force"),
                 "is " + text_of(load.value.norm(), told_digits) + unit + " on the beam \"" + beam.name +
                     "\", which " + text_of(EA, told_digits) + " N stretch to twice its length; probably " +
                     text_of(load.value.norm() * part, told_digits) + unit + " are meant (\"1 kN\" is 1000)");
@@ -155,6 +199,7 @@ void check_load(const CaseLoad& load, const Beam& beam, Findings& findings) {
 void check_sizes(const ResolvedCase& resolved, const BeamModel& model, const ModelFrame& frame,
                  const std::vector<BeamSource>& sources, Findings& findings) {
   check_gravity(resolved, findings);
+  check_direction_of_gravity(resolved, model, frame, findings);
   for (std::size_t b = 0; b < model.beams.size(); ++b) {
     const Beam& beam = model.beams[b];
     const CaseBeam& from = resolved.beams[b];

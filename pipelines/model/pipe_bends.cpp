@@ -65,10 +65,11 @@ std::vector<PipeBend> pipe_bends(const CaseBeam& from, const Beam& beam, const M
                         text_of(most.radius, digits) + " m, it bends " + text_of(most.flexibility(), digits) +
                         " times as easily as the beam (1.65/h, h = t "
                         "R/r^2 = " +
-                        text_of(most.characteristic, digits) + "), with " +
-                        text_of(most.stress_factor(), digits) +
-                        " times the stress of bending (0.9/h^(2/3)); \"bends\": \"flexible\" of the section "
-                        "takes account of both");
+                        text_of(most.characteristic, digits) + ")" +
+                        (most.stress_factor() > 1 ? ", with " + text_of(most.stress_factor(), digits) +
+                                                        " times the stress of bending (0.9/h^(2/3))"
+                                                  : std::string()) +
+                        "; \"bends\": \"flexible\" of the section takes account of that");
     return {};
   }
   std::vector<PipeBend> bends;

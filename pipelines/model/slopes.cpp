@@ -250,7 +250,10 @@ class Decision {
     MeshedState at = MeshedState::drawn(model);
     at.state.t = time();
     const bool as_drawn = starts_as_drawn();
-    if (!as_drawn && find_held_equilibrium(at, interrupted_).failure) return;
+    if (!as_drawn && find_held_equilibrium(at, interrupted_).failure) {
+      has_equilibrium_ = false;
+      return;
+    }
     const CarriedBySpans carried(*at.system, at.state);
     for (SlopeDecision& place : places_) {
       if (!is_open(place)) continue;
@@ -280,8 +283,9 @@ class Decision {
     if (place.asked == SlopeRule::discontinuous)
       place.why = "as the case says";
     else if (!place.tension)
-      place.why = starts_as_drawn() ? "the analysis starts as drawn, and is not taut enough there"
-                                    : "no load makes the beam taut enough, or no equilibrium was found";
+      place.why = !has_equilibrium_   ? "no equilibrium was found, whose tension would make it a kink"
+                  : starts_as_drawn() ? "the analysis starts as drawn, and is not taut enough there"
+                                      : "no load makes the beam taut enough for a kink";
     else if (!place.reach)
       place.why = "the beam is not under tension";
     else
@@ -295,6 +299,7 @@ class Decision {
   BeamModel& model_;
   std::vector<SlopeDecision>& places_;
   const std::vector<Obstacle>& obstacles_;
+  bool has_equilibrium_ = true;  // as far as it was looked for
 };
 
 // Puts a node where a load makes a kink. A beam that has not enough elements for that keeps its own.

@@ -129,5 +129,33 @@ TEST(Modes, OfAThickShaftAreToldToLackShear) {
   EXPECT_FALSE(slender.says("half waves")) << slender.messages;
 }
 
+// One element has 110.7 % of the first frequency of a bar on two supports, two have 100.4 %.
+TEST(Modes, OfTooFewElementsAreTold) {
+  const test::TemporaryDirectory directory;
+  const std::string bar = R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.005 },
+      "material": "steel", "elements": { "count": 1 } }],
+    "supports": [{ "beam": "bar", "at": "start", "type": "pinned" }, { "beam": "bar", "at": "end", "type": "pinned" }],
+    "analysis": { "type": "modes", "modes": { "count": 1 } }, "output": { "report": false } })";
+  const auto file = directory.write("bar.json", bar);
+  const test::CaseRun one = test::run_file(file);
+  EXPECT_EQ(one.code, 0) << one.messages;
+  EXPECT_TRUE(one.says("mode 1 moves beam \"bar\" in half waves of 0.91 elements")) << one.messages;
+  EXPECT_TRUE(one.says("give beam \"bar\" 3 elements or more")) << one.messages;
+  for (const char* type : {"modes", "buckling"}) {
+    const std::string analysis = std::string("analysis.type=") + type;
+    const std::vector<std::string> thrust = {
+        analysis, R"(supports[1]={"beam": "bar", "at": "end", "type": "guided", "direction": [1, 0, 0]})",
+        R"(loads=[{"beam": "bar", "at": "end", "force": [-1, 0, 0]}])"};
+    for (const char* count : {"1", "2", "3"}) {
+      std::vector<std::string> overrides = thrust;
+      overrides.push_back(std::string("beams[0].elements.count=") + count);
+      const test::CaseRun run = test::run_file(file, overrides);
+      EXPECT_EQ(run.code, 0) << run.messages;
+      EXPECT_EQ(run.says("half waves of"), count == std::string("1")) << type << count << run.messages;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nurbeam::of_helpful_messages

@@ -124,5 +124,19 @@ TEST(Quantity, AValueThatIsNotFiniteInSiUnitsSaysSo) {
             std::string::npos);
 }
 
+TEST(Quantity, WithAWrongUnitNamesTheNearestAndTheListOnce) {
+  const std::string wrong = parse_quantity("6 mn", Dimension::length).error;
+  EXPECT_NE(wrong.find("did you mean \"mm\"?"), std::string::npos) << wrong;
+  EXPECT_EQ(wrong.find("km"), wrong.rfind("km")) << wrong;
+}
+
+TEST(Quantity, OfADifferenceOfTemperaturesIsNoTemperature) {
+  for (const char* text : {"40 C", "40 degC", "40 °C", "104 degF"}) {
+    const std::string wrong = parse_quantity(text, Dimension::temperature).error;
+    EXPECT_NE(wrong.find("\"20 K\" of a beam that was made at 20 degrees and is at 40"), std::string::npos)
+        << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace nurbeam

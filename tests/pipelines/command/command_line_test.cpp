@@ -142,7 +142,7 @@ TEST(CommandLine, InspectOfAnUnreadableFileEndsWithTwoAndStillListsTheOthers) {
   const CommandOutcome outcome = run_line({"inspect", bad, good});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_TRUE(text_holds(outcome.err, "error: ")) << outcome.err;
-  EXPECT_TRUE(text_holds(outcome.out, "good.igs: 1 curve(s)")) << outcome.out;
+  EXPECT_TRUE(text_holds(outcome.out, "good.igs: 1 curve,")) << outcome.out;
 }
 
 TEST(CommandLine, CompareMeasuresBothWaysAgainstAllCurves) {

@@ -62,6 +62,22 @@ TEST(Sizes, OfMillimetresAreToldWithWhatWasMeant) {
              {"gravity", "[0, 0, -9.81]"});
 }
 
+TEST(Sizes, OfGravityTheWrongWayAreTold) {
+  const auto pulled = [](const std::string& g) {
+    return std::vector<std::string>{"\"nurbeam\": 1,", "\"nurbeam\": 1, \"gravity\": " + g + ","};
+  };
+  expect_one(cable, pulled("[0, 0, 9.81]"), {"gravity", "upwards", "[0, 0, -9.81]"});
+  const std::string straight = "\"polyline\": [[0, 0, 10], [40, 0, 8]]",
+                    sagging = "\"through\": [[0, 0, 10], [20, 0, 7], [40, 0, 8]]";
+  std::vector<std::string> across = pulled("[0, -9.81, 0]");
+  EXPECT_TRUE(warnings_of(cable, across).empty());  // of a straight line nobody knows
+  across.insert(across.end(), {straight, sagging});
+  expect_one(cable, across, {"gravity", "across the upright plane", "[0, 0, -9.81]"});
+  // A model that is drawn lying, or whose y points up.
+  EXPECT_TRUE(warnings_of(bent, {}).empty());
+  EXPECT_TRUE(warnings_of(bent, pulled("[0, -9.81, 0]")).empty());
+}
+
 TEST(Sizes, OfADensityInOtherUnitsAreToldWithWhatWasMeant) {
   expect_one(cable, {"5200", "7.85"}, {"material.density", "7850"});
 }
