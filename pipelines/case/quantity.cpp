@@ -183,11 +183,14 @@ bool has_word(std::string_view text, std::string_view word) {
   return false;
 }
 
-/// Those in the examples of a dimension.
-std::vector<std::string> unit_names(std::string_view examples) {
+/// Those in the examples of a dimension. First those as long as `unknown`: a letter is mistaken for another
+/// before one is left out.
+std::vector<std::string> unit_names(std::string_view examples, std::string_view unknown) {
   std::vector<std::string> names;
   for (const Unit& unit : units())
     if (has_word(examples, unit.name)) names.emplace_back(unit.name);
+  std::stable_partition(names.begin(), names.end(),
+                        [&](const std::string& name) { return name.size() == unknown.size(); });
   return names;
 }
 
@@ -222,9 +225,9 @@ UnitProduct parse_units(const std::string& text, std::string_view examples) {
     const std::string_view name = rest.substr(0, letters);
     const Unit* unit = find_unit(name);
     if (!unit) {
-      product.error = name.empty()
-                          ? "cannot read the unit from " + in_quotes(rest) + " on"
-                          : "unknown unit " + in_quotes(name) + nearest_question(name, unit_names(examples));
+      product.error = name.empty() ? "cannot read the unit from " + in_quotes(rest) + " on"
+                                   : "unknown unit " + in_quotes(name) +
+                                         nearest_question(name, unit_names(examples, name));
       return product;
     }
     rest.remove_prefix(letters);

@@ -40,13 +40,9 @@ std::string quoted_list(const std::vector<std::string>& names) {
 
 std::string nearest_question(std::string_view unknown, const std::vector<std::string>& known) {
   if (known.empty()) return {};
-  // Of two that are as near, the one of the same length: a letter is mistaken for another before one is left
-  // out.
-  const auto far = [&](const std::string& name) {
-    return std::pair(edit_distance(unknown, name), name.size() != unknown.size());
-  };
-  const auto nearest = std::min_element(known.begin(), known.end(),
-                                        [&](const auto& a, const auto& b) { return far(a) < far(b); });
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return edit_distance(unknown, a) < edit_distance(unknown, b);
+  });
   const int near = std::max(2, static_cast<int>(unknown.size()) / 3);
   return edit_distance(unknown, *nearest) <= near ? "; did you mean " + in_quotes(*nearest) + "?" : "";
 }

@@ -526,7 +526,7 @@ TEST(Modes, ThatCannotBeAreRefusedInWords) {
     "beams": [{ "name": "bar", "axis": { "polyline": [[0, 0, 0], [2, 0, 0]] }, "section": { "radius": 0.01 },
                 "material": { "density": 7850, "youngs_modulus": 2e11 } }],
     "analysis": { "type": "modes" } })",
-         3, "is the model held everywhere?");
+         3, "the model has no support");
 }
 
 }  // namespace
