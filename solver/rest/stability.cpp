@@ -159,15 +159,20 @@ class Pencil {
     return {};
   }
 
-  /// A number a such that no lambda has a real part below -a.
+  /// A number a such that no lambda has a real part below -a: the symmetric part of K + a M is positive
+  /// definite on the null space of G. Where round-off of the constraints hides that, a is larger.
   double bound() const {
     const Matrix symmetric = (kkt_ + Matrix(kkt_.transpose())) / 2;
     double a = zero_eigenvalue;
-    while (a < 1 / zero_eigenvalue && stability(symmetric + a * mass_, n_)->unstable_directions > 0) a *= 10;
+    while (a < 1 / zero_eigenvalue && !is_definite(symmetric + a * mass_)) a *= 10;
     return a;
   }
 
  private:
+  bool is_definite(const Matrix& kkt) const {
+    ShiftedTangent tangent(kkt, n_);
+    return tangent.factorise(tangent.round_off()) == 0;
+  }
   Pencil(const Matrix& kkt, int n, const Matrix& mass, double everywhere)
       : factor_(equilibration(kkt, n)), kkt_(scaled(kkt, factor_)), mass_(kkt_.rows(), kkt_.cols()), n_(n) {
     const Matrix level = scaled(mass, factor_.head(n));

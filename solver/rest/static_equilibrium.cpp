@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "solver/algebra/equilibrated_kkt.h"
 #include "solver/algebra/kkt_solver.h"
@@ -30,14 +31,20 @@ constexpr int proximal_iterations = 15;
 /// Departure from an unstable equilibrium, change of a coordinate over its scale.
 constexpr double departing_change = 1e-2;
 
+/// Cost of the judgement whether an equilibrium without an energy diverges, in Newton iterations.
+constexpr int judgement_cost = 5;
+
 /// One search: the state and load factor of the last equilibrium, and what was spent so far.
 class EquilibriumSearch {
  public:
-  /// `may_diverge`: whether an unstable equilibrium without an energy is accepted.
+  /// What the search may spend after its first equilibrium that diverges (unstable, without an energy), in
+  /// Newton iterations; nothing: such equilibria are accepted.
+  using Allowance = std::optional<int>;
+
   EquilibriumSearch(const StaticEquilibrium& settings, const SecondOrderSystem& system, const State& start,
-                    bool may_diverge)
+                    Allowance for_stability)
       : settings_(settings),
-        may_diverge_(may_diverge),
+        for_stability_(for_stability),
         system_(system),
         scale_(system.coordinate_scale()),
         sizes_(system),
@@ -57,6 +64,7 @@ class EquilibriumSearch {
         relax(1);
     }
     state_.load = report_.load_factor;
+    if (!for_stability_ && report_.status == StaticStatus::converged) report_.diverges = final_diverges();
     if (report_.status != StaticStatus::converged && lost_in_round_off_)
       report_.status = StaticStatus::lost_in_round_off;
     return report_;
@@ -65,9 +73,9 @@ class EquilibriumSearch {
   const State& state() const { return state_; }
   bool ended() const { return ended_; }
   /// Whether the search failed as it found only equilibria that diverge.
-  bool wants_stability() const {
-    return diverged_ && !may_diverge_ && !ended_ && report_.status != StaticStatus::converged;
-  }
+  bool wants_stability() const { return diverged_ && !ended_ && report_.status != StaticStatus::converged; }
+  bool has_answer() const { return ended_ || report_.status == StaticStatus::converged; }
+  int spent() const { return spent_; }
 
  private:
   struct Outcome {
@@ -289,11 +297,29 @@ class EquilibriumSearch {
     const int n = equations_.coordinates();
     report_.diverges = false;
     if (const auto by_energy = stability(equations_.tangent(), n)) return *by_energy;
-    const Eigen::SparseMatrix<double> tangent = equations_.tangent();
-    const Stability found = divergence(tangent, n, [&] { return equations_.inertia(equilibrium); });
-    diverged_ = diverged_ || found.unstable_directions > 0;
+    if (!for_stability_) return {};
+    const Stability found = divergence(equilibrium);
+    if (found.unstable_directions > 0 && !std::exchange(diverged_, true)) spent_ = 0;
     report_.diverges = found.unstable_directions > 0;
-    return may_diverge_ ? Stability{} : found;
+    return found;
+  }
+  Stability divergence(const State& equilibrium) {
+    const Eigen::SparseMatrix<double> tangent = equations_.tangent();
+    return nurbeam::divergence(tangent, equations_.coordinates(), [&] {
+      spent_ += judgement_cost;  // asked for where the symmetric part does not settle it
+      return equations_.inertia(equilibrium);
+    });
+  }
+  /// Whether the last equilibrium diverges, where equilibria on the way were not asked for that.
+  bool final_diverges() {
+    equations_.clear_proximity();
+    equations_.set_load(report_.load_factor);
+    const Vector x = equations_.scaled_unknowns(state_);
+    Vector rows(equations_.size());
+    if (!equations_.evaluate(x, rows) || !equations_.differentiate(x) ||
+        is_symmetric(equations_.tangent(), equations_.coordinates()))
+      return false;
+    return divergence(state_).unstable_directions > 0;
   }
 
   /// Newton's corrections of a converged state, as long as they shrink. Returns the largest last correction,
@@ -348,6 +374,7 @@ class EquilibriumSearch {
     const int iterations = kinsol_.improve(x, allowed, strategy, max_iterations);
     outcome.iterations += iterations;
     report_.newton_iterations += iterations;
+    spent_ += iterations;
   }
 
   double change(const Vector& a, const Vector& b) const {
@@ -366,12 +393,12 @@ class EquilibriumSearch {
 
   bool steps_left() const {
     constexpr int share = 2;  // divisor that leaves steps for another search
-    const bool another = diverged_ && !may_diverge_;
-    return report_.load_steps < (another ? settings_.max_load_steps / share : settings_.max_load_steps);
+    if (!diverged_) return report_.load_steps < settings_.max_load_steps;
+    return report_.load_steps < settings_.max_load_steps / share && spent_ < *for_stability_;
   }
 
   const StaticEquilibrium& settings_;
-  const bool may_diverge_;
+  const Allowance for_stability_;
   const SecondOrderSystem& system_;
   Vector scale_;
   const ForceSizes sizes_;
@@ -381,10 +408,18 @@ class EquilibriumSearch {
   bool lost_in_round_off_ = false;  // since the last equilibrium
   bool ended_ = false;              // whether settings_.ends_at has ended the search
   bool diverged_ = false;           // an equilibrium on the way diverges
+  int spent_ = 0;  // in Newton iterations; since the first equilibrium that diverges, if there is one
   ScaledEquations equations_;
   Kinsol kinsol_;
   KktSolver kkt_solver_;
 };
+
+/// What may be spent on a stable equilibrium where one that diverges is found for `cost`, in Newton
+/// iterations.
+int allowance_for_stability(bool is_found, int cost) {
+  constexpr int times = 10, least = 500;
+  return is_found ? std::max(least, times * cost) : std::numeric_limits<int>::max();
+}
 
 }  // namespace
 
@@ -395,18 +430,22 @@ StaticReport find_static_equilibrium(const StaticEquilibrium& settings, const Se
   require(settings.max_iterations > 0, method, "max_iterations ", settings.max_iterations,
           " is not positive");
   require_size(method, "q", state.q.size(), system.coordinate_count());
-  EquilibriumSearch search(settings, system, state, false);
-  const StaticReport report = search.run();
-  if (search.wants_stability()) {
-    EquilibriumSearch another(settings, system, state, true);
-    const StaticReport found = another.run();
-    if (found.status == StaticStatus::converged || another.ended()) {
-      state = another.state();
-      return found;
-    }
+  EquilibriumSearch first(settings, system, state, 0);
+  const StaticReport report = first.run();
+  if (!first.wants_stability()) {
+    state = first.state();
+    return report;
   }
-  state = search.state();
-  return report;
+  EquilibriumSearch any(settings, system, state, std::nullopt);
+  const StaticReport diverging = any.run();
+  EquilibriumSearch stable(settings, system, state, allowance_for_stability(any.has_answer(), any.spent()));
+  const StaticReport found = stable.run();
+  const bool is_stable = stable.has_answer() || !any.has_answer();
+  state = is_stable ? stable.state() : any.state();
+  StaticReport answer = is_stable ? found : diverging;
+  answer.newton_iterations =
+      report.newton_iterations + diverging.newton_iterations + found.newton_iterations;
+  return answer;
 }
 
 }  // namespace nurbeam

@@ -26,7 +26,7 @@ enum class StaticStatus {
 struct StaticReport {
   StaticStatus status = StaticStatus::not_converged;
   int load_steps = 0;
-  int newton_iterations = 0;
+  int newton_iterations = 0;  ///< also of searches that have not led to the answer
   double load_factor = 0;     ///< load factor reached
   double residual_norm = 0;   ///< scaled as `tolerance` is
   bool leaves_start = false;  ///< the start was an equilibrium that is not stable
@@ -48,10 +48,10 @@ struct StaticReport {
 /// the same bounds, so that the branch of equilibria that starts at `state` is followed.
 ///
 /// An equilibrium that is not stable (stability.h) does not count: it is left along its unstable direction.
-/// But where loads have no energy and no stable one is found, one that diverges is accepted. An increment may
-/// not converge at all: a straight or slack cable without tension has a singular tangent, a snap-through no
-/// equilibrium nearby. A higher load is then reached by proximal steps M(q)(q - q_k)/tau^2 - f + G'lambda = 0
-/// with growing tau, which decrease the potential energy.
+/// But where loads have no energy and no stable one is found for ten times what an answer costs, one that
+/// diverges is accepted. An increment may not converge at all: a straight or slack cable without tension has
+/// a singular tangent, a snap-through no equilibrium nearby. A higher load is then reached by proximal steps
+/// M(q)(q - q_k)/tau^2 - f + G'lambda = 0 with growing tau, which decrease the potential energy.
 ///
 /// Converged means: no residual is larger than `tolerance` times the largest force (the load or G'lambda,
 /// compared as work over coordinate_scale()) or, failing that, than its own round-off. v and a are zero on

@@ -182,7 +182,8 @@ class RestSearch {
     const State before = at.state;
     StaticReport found = load(at, from, to);
     if (watches_ && found.status == StaticStatus::converged && (later || !equilibrium_) && !report_.snap)
-      report_.snap = find_snap(*at.system, {before, from}, {at.state, to}, interrupted_);
+      report_.snap =
+          find_snap(*at.system, {before, from}, {at.state, to}, found.newton_iterations, interrupted_);
     // The search stops half way when sections have turned far from their charts; it goes on in charts of
     // their own.
     const MeshedState start = at;

@@ -20,6 +20,8 @@ using Vector = Eigen::VectorXd;
 constexpr double resolution = 1e-3, coarse_resolution = 1e-2;
 constexpr double near_no_load = 0.02;
 constexpr int few_load_steps = 12, most_load_steps = 400;  // of one equilibrium, and of all in between
+/// What the search may cost, in Newton iterations: this many times what the answer has cost, but always some.
+constexpr int times_the_answer = 2, always = 100;
 
 // Coordinates that add up to the angles of sections about the axis. A round section may turn freely in its
 // place, and nothing else depends on these.
@@ -39,13 +41,16 @@ std::vector<int> turning_coordinates(const Mesh& mesh) {
 
 class SnapSearch {
  public:
-  SnapSearch(const BeamSystem& system, Loading from, Loading to, const std::function<bool()>& interrupted)
+  // `cost`: of the answer, in Newton iterations.
+  SnapSearch(const BeamSystem& system, Loading from, Loading to, int cost,
+             const std::function<bool()>& interrupted)
       : system_(system),
         way_(system, from, to, interrupted),
         interrupted_(interrupted),
         scale_(system.coordinate_scale()),
         turning_(turning_coordinates(system.mesh())),
-        first_(from.load > 0 ? 0 : near_no_load) {}
+        first_(from.load > 0 ? 0 : near_no_load),
+        iterations_left_(std::max(always, times_the_answer * cost)) {}
 
   // The part of the way from `from` (0) to `to` (1) at which the branch ends; nothing where it does not.
   std::optional<double> run(const State& from, const State& to) {
@@ -100,11 +105,12 @@ class SnapSearch {
   }
   StaticReport settled(State& state, double part, double from, int most) {
     most = std::min(most, load_steps_left_);
-    if (most <= 0) return {};
+    if (most <= 0 || iterations_left_ <= 0) return {};
     const LoadedBetween system(system_, way_.at(from), way_.at(part), interrupted_);
     state.load = 1;
     const StaticReport found = find_static_equilibrium({.max_load_steps = most}, system, state);
     load_steps_left_ -= found.load_steps;
+    iterations_left_ -= found.newton_iterations;
     return found;
   }
 
@@ -117,10 +123,11 @@ class SnapSearch {
   }
 
   // Whether the tangents at both points lead from one to the other.
-  bool joined(const Point& a, const Point& b) const {
+  bool joined(const Point& a, const Point& b) {
     constexpr double astray = 0.5, round_off = 1e-6;  // part of the whole way
     if (distance(a.state, b.state) <= round_off * whole_) return true;
     const Vector way = seen(b.state.q - a.state.q);
+    iterations_left_ -= 2;  // each tangent costs as much as one
     const auto leads = [&](const Vector& move) { return (move - way).norm() <= astray * way.norm(); };
     return leads(heading(a, b.part)) && leads(-heading(b, a.part));
   }
@@ -162,14 +169,14 @@ class SnapSearch {
   const std::vector<int> turning_;
   const double first_;
   double whole_ = 0;
-  int load_steps_left_ = most_load_steps;
+  int load_steps_left_ = most_load_steps, iterations_left_;
 };
 
 }  // namespace
 
 std::optional<Loading> find_snap(const BeamSystem& system, const LoadedState& from, const LoadedState& to,
-                                 const std::function<bool()>& interrupted) {
-  SnapSearch search(system, from.loading, to.loading, interrupted);
+                                 int cost, const std::function<bool()>& interrupted) {
+  SnapSearch search(system, from.loading, to.loading, cost, interrupted);
   const std::optional<double> part = search.run(from.state, to.state);
   if (!part) return {};
   return LoadedBetween(system, from.loading, to.loading, interrupted).at(*part);

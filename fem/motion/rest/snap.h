@@ -22,9 +22,10 @@ struct LoadedState {
 /// Loading 0 means that effects other than loads (tension, lengths of connectors) buckle the drawing, and
 /// loads could not have bent it so far.
 ///
-/// Nothing also where equilibria in between are not found. Sections that only turn in their places are left
-/// out. `from` need not be in equilibrium. Throws Interruption where `interrupted` returns true.
+/// Nothing also where equilibria in between are not found for twice what the answer `to` has cost
+/// (`cost`, in Newton iterations). Sections that only turn in their places are left out. `from` need not be
+/// in equilibrium. Throws Interruption where `interrupted` returns true.
 std::optional<Loading> find_snap(const BeamSystem& system, const LoadedState& from, const LoadedState& to,
-                                 const std::function<bool()>& interrupted);
+                                 int cost, const std::function<bool()>& interrupted);
 
 }  // namespace nurbeam

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
 
+#include "fem/motion/rest/resting_place.h"
 #include "fem/system/beam_system.h"
 #include "fem/system/initial_state.h"
+#include "fem/system/material_points.h"
 #include "solver/rest/static_equilibrium.h"
 #include "tests/support/models.h"
 
@@ -26,6 +29,24 @@ TEST(StraightWire, HangsAfterOneMoreTrialOnAnyMesh) {
     EXPECT_LE(report.load_steps, 2) << elements;
     EXPECT_LE(report.newton_iterations, 150) << elements;
   }
+}
+
+// A moment in space has no energy, and the rolled rod no stable equilibrium: the search for one must not cost
+// more than some times the answer. It took 4558 tangents once.
+TEST(RolledRod, ASearchForAStableStateIsBounded) {
+  ModelBuilder builder(3);
+  BeamProperties rod(1e4, 0, 0.01);
+  rod.sections = SectionStiffness{100, 100, 0, 100, 1e-4};
+  builder.add_beam(ReferenceCurve({testing::line_cubic({0, 0, 0}, {10, 0, 0})}, 3).oriented({}), rod, {20});
+  builder.clamp(0, 0).force(0, 10, {0, 0, 5}).moment(0, 10, {0, 0, 20 * std::numbers::pi});
+  MeshedState at = MeshedState::drawn(std::make_shared<const BeamModel>(builder.build()));
+  int tangents = 0;
+  const RestReport report = find_rest(at, {}, [&] { return ++tangents < 0; });
+  ASSERT_FALSE(report.failure);
+  EXPECT_TRUE(report.diverges);
+  EXPECT_LT(tangents, 3000);
+  const Eigen::Vector3d tip = material_point(*at.system, at.state, 0, 10).r;
+  EXPECT_NEAR((tip - Eigen::Vector3d(0.410418, 0.053828, -1.096506)).norm(), 0, 5e-4);
 }
 
 }  // namespace
