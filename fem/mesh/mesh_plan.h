@@ -26,6 +26,9 @@ struct MeshPlan {
   std::vector<Carried> modes;   ///< per rider
   std::vector<double> places;   ///< s of each rider when the plan is made [m]
   std::vector<bool> held = {};  ///< per rider: held at its place until its release; empty: none
+  /// Per rider: a point of the mesh for good, as a change of the mesh beside its node would have cost energy;
+  /// empty: none.
+  std::vector<bool> points_for_good = {};
   /// Constant weights by beam and (s_a, s_b), for elements whose weights a merge or split has set.
   struct Weights {
     int beam;
@@ -49,6 +52,9 @@ struct MeshPlan {
 
   bool is_closed(int stop) const { return stop < static_cast<int>(closed.size()) && closed[stop]; }
   bool holds(int rider) const { return rider < static_cast<int>(held.size()) && held[rider]; }
+  bool is_point_for_good(int rider) const {
+    return rider < static_cast<int>(points_for_good.size()) && points_for_good[rider];
+  }
   double spin(int rider) const { return rider < static_cast<int>(spins.size()) ? spins[rider] : 0; }
 };
 

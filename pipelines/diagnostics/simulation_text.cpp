@@ -175,8 +175,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
              model.body_of(model.riders[failure.rider]).name + "\", and its energy by " +
              text_of(failure.energy, 3) + " J, more than a thousandth of what moves" + places +
              (model.riders[failure.rider].continuous_slope
-                  ? "; for a cable that hardly resists bending give \"slope\": \"discontinuous\", else take more "
-                    "elements or \"carried_as\": \"point\""
+                  ? "; take more elements, or for a cable that hardly resists bending \"slope\": \"discontinuous\""
                   : "; take more elements, or \"slope\": \"continuous\": a beam that resists bending cannot give up a kink");
     case Failure::Kind::energy:
       return "by t = " + time + " an energy of " + text_of(failure.energy, 3) +

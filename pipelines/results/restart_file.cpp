@@ -315,6 +315,10 @@ void exchange_plan(Archive& archive, MeshPlan& plan) {
   exchange_rows(archive, "held_joints", "whether a body waits for its release", held,
                 [](int& each, auto& slot) { slot(each); });
   plan.held.assign(held.begin(), held.end());
+  std::vector<int> for_good(plan.points_for_good.begin(), plan.points_for_good.end());
+  exchange_rows(archive, "points_for_good", "whether a body stays a point of the mesh", for_good,
+                [](int& each, auto& slot) { slot(each); });
+  plan.points_for_good.assign(for_good.begin(), for_good.end());
   std::vector<int> closed(plan.closed.begin(), plan.closed.end());
   exchange_rows(archive, "closed_stops", "whether a body rests against a stop", closed,
                 [](int& each, auto& slot) { slot(each); });
@@ -380,6 +384,13 @@ void exchange(Archive& archive, Checkpoint& p) {
   exchange_rows(archive, "extremes", "value, s and time of each extreme of the run", p.extremes,
                 [](double& number, auto& slot) { slot(number); });
   exchange_events(archive, p.report.events);
+  exchange_rows(archive, "nodes_given_up", "joint, time, s, and energy that its node would have cost",
+                p.report.points_for_good, [](PointForGood& point, auto& slot) {
+                  slot(point.rider);
+                  slot(point.time);
+                  slot(point.s);
+                  slot(point.energy);
+                });
   archive.texts("said_of_files", p.said_of_files);
 }
 

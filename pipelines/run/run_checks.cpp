@@ -67,6 +67,7 @@ std::vector<Diagnostic> run_warnings(const CaseFile& case_file, const BuiltModel
   };
   if (!pressed && !folds)
     add(law_notes(case_file, built.model, frames.beams()));  // else strains are the mesh's
+  add(given_up_node_notes(file, run, built.model));
   add(undamped_notes(case_file, built.model, frames.beams()));
   add(loose_body_notes(case_file, built.model, run));
   return warnings;

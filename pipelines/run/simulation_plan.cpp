@@ -111,6 +111,23 @@ std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, co
           "most (three tenths with \"radau\"); longer elements or \"carried_as\": \"point\" leave steps as long as asked for"};
 }
 
+std::vector<Diagnostic> given_up_node_notes(const std::filesystem::path& file, const SimulationReport& run,
+                                            const BeamModel& model) {
+  std::vector<Diagnostic> notes;
+  for (const PointForGood& point : run.points_for_good) {
+    const Rider& joint = model.riders[point.rider];
+    notes.push_back(
+        {Severity::note, file.string() + ": sliding joint of \"" + model.body_of(joint).name + "\"",
+         "at t = " + text_of(point.time, 6) + " s, at s = " + text_of(point.s, 6) + " m of beam \"" +
+             model.beam_of(joint).name +
+             "\", a change of the mesh beside its node would have changed the energy by " +
+             text_of(point.energy, 3) +
+             " J: from there on the body is carried as a point of the mesh, which conserves it; with more elements the "
+             "node can stay, and \"carried_as\": \"point\" has none from the start"});
+  }
+  return notes;
+}
+
 std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run) {
   if (!run.diverges) return {};
   return Diagnostic{

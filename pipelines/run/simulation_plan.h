@@ -32,6 +32,11 @@ std::vector<Diagnostic> shared_pull_warnings(const std::filesystem::path& file,
 /// A note where every tenth step of a fixed length or more had to be shorter; `file` heads it.
 std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, const SimulationReport& run);
 
+/// Notes where bodies are carried as points from a moment on, as changes of the mesh beside their nodes would
+/// have cost energy; `file` heads them.
+std::vector<Diagnostic> given_up_node_notes(const std::filesystem::path& file, const SimulationReport& run,
+                                            const BeamModel& model);
+
 /// A warning where an equilibrium is unstable and no stable one was found; `file` heads it.
 std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, const SimulationReport& run);
 

@@ -77,6 +77,13 @@ struct EnergyRange {
   double width() const { return std::max(0.0, greatest - least); }
 };
 
+/// A rider whose node was given up for good, as the change of the mesh that was due beside it would have
+/// changed the energy by `energy`.
+struct PointForGood {
+  int rider;
+  double time, s, energy;  ///< [s], [m], [J]
+};
+
 /// A body at rest that needs more force along its beam than its friction can hold.
 struct LooseBody {
   int rider;
@@ -93,6 +100,7 @@ struct SimulationReport {
   /// it; and the shortest of them [s].
   long cut_steps = 0;
   double shortest_cut = std::numeric_limits<double>::infinity();
+  std::vector<PointForGood> points_for_good;
   bool diverges = false;  ///< an equilibrium was found that the model leaves when it is touched
   /// Loading under which the model snaps through or buckles, in a search for rest.
   std::optional<Loading> snap;

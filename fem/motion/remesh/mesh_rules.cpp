@@ -48,6 +48,17 @@ class RiderRules {
   // whichever way the rider moves.
   const PlaceRange& quiet() const { return quiet_; }
 
+  // Whether the rider is a node that may become a point: a point cannot carry a kink.
+  bool may_become_point() const {
+    return mesh_.plan.modes[joint_] == Carried::node && model_.riders[joint_].continuous_slope;
+  }
+  void become_point_for_good() {
+    std::vector<bool>& for_good = plan().points_for_good;
+    for_good.resize(model_.riders.size(), false);
+    for_good[joint_] = true;
+    become_point();
+  }
+
   bool apply() {
     if (mesh_.plan.modes[joint_] == Carried::point) return leave_point();
     if (mesh_.plan.modes[joint_] != Carried::node) return false;
@@ -142,6 +153,7 @@ class RiderRules {
   void remove(int h) { plan().beams[index_].present[beam_.home_index(h)] = false; }
 
   bool leave_point() {
+    if (mesh_.plan.is_point_for_good(joint_)) return false;
     const double from_end = std::min(s_, at(last()) - s_), zone = 2 * end_zone * spacing(s_);
     if (!beam_.is_ring()) {
       watch(zone);
@@ -304,6 +316,7 @@ MeshPlan plan_like(const MeshPlan& like, const BeamSystem& system, const State& 
   plan.beams = like.beams;
   plan.modes = like.modes;
   plan.held = like.held;
+  plan.points_for_good = like.points_for_good;
   plan.closed = like.closed;
   carry_weights(system, state, plan);
   carry_sections(system, state, plan, &like);
@@ -326,6 +339,17 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
   return next;
 }
 
+std::optional<NextPlan> point_for_good(const BeamSystem& system, const State& state,
+                                       const LengthControl& control, int rider) {
+  NextPlan next;
+  RiderRules rules(system, state, control, rider, next);
+  if (!rules.may_become_point()) return {};
+  rules.become_point_for_good();
+  carry_weights(system, state, next.plan);
+  carry_sections(system, state, next.plan);
+  return next;
+}
+
 bool MeshWatch::is_quiet(const std::shared_ptr<const BeamSystem>& system, const State& state) const {
   if (system_.owner_before(system) || system.owner_before(system_)) return false;
   const std::vector<MeshRider>& riders = system->mesh().riders;
@@ -344,10 +368,6 @@ void MeshWatch::look(const std::shared_ptr<const BeamSystem>& system, const Next
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next) {
   constexpr double shortest = 0.01, longest = 1.5;  // in home element lengths
   if (next.change == MeshChange::becomes_node) return true;
-  // Waiting pays for a kink alone: the nearer the end, the smaller the kink that a point cannot carry. The
-  // bend of a continuous slope is no smaller near the end than before.
-  const bool bends = system.model().riders[next.rider].continuous_slope;
-  if (next.change == MeshChange::becomes_point && bends) return false;
   const Mesh& mesh = system.mesh();
   const int beam = system.model().riders[next.rider].beam;
   const int node = mesh.riders[next.rider].node, first = mesh.first_span[beam];

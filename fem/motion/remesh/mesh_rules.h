@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem/system/beam_system.h"
@@ -58,9 +59,15 @@ NextPlan next_plan(const BeamSystem& system, const State& state, const LengthCon
                    int first_joint = 0);
 
 /// Whether the motion may go on although a change of the mesh is due. A point may stay a point. A node may
-/// stay a node until it is almost there, if its slope is discontinuous. A node before the rider may stay
+/// stay a node until it is almost there. A node before the rider may stay
 /// until then, and a hidden node may stay away until the element beside the rider is 1.5 home lengths long.
 bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next);
+
+/// The plan with a rider's node gone for good: it is carried as a point of the mesh from now on, and the
+/// hidden home nodes beside it are back. Nothing for a rider that is no node, and for one whose slope may be
+/// discontinuous, as a point carries no kink.
+std::optional<NextPlan> point_for_good(const BeamSystem& system, const State& state,
+                                       const LengthControl& control, int rider);
 
 /// A watch that knows for how long no change of the mesh can be due.
 class MeshWatch {

@@ -46,6 +46,64 @@ void follow_change(const Run& run, const MeshedState& before, const NextPlan& ne
       change);
 }
 
+// A change of the mesh that was tried, and its event. `changed`: empty where the motion cannot be carried
+// over.
+struct Trial {
+  const NextPlan& next;
+  RunEvent event;
+  std::optional<ChangedMesh> changed = {};
+  bool keeps_energy = false;
+
+  std::optional<double> cost() const {
+    return changed ? std::optional(event.energy_after - event.energy_before) : std::nullopt;
+  }
+};
+
+Trial tried(const Run& run, const NextPlan& next) {
+  MotionSums sums = motion_sums(*run.at.system, run.at.state, run.model->riders[next.rider].beam);
+  Trial trial{.next = next, .event = event_before(run.at, kind_of(next.change), next.rider, sums)};
+  std::optional<ChangedMesh>& changed = trial.changed;
+  changed = run.is_as_drawn() ? changed_drawing(run.at, next) : changed_mesh(run.at, next, sums.energy);
+  if (!changed) return trial;
+  sums = carried_sums(sums, *run.at.system, run.at.state, *changed->now.system, changed->now.state,
+                      trial.event.beam);
+  finish_event(sums, trial.event);
+  trial.keeps_energy = !changes_energy(*run.model, sums.energy, trial.event, run.report);
+  return trial;
+}
+
+// Goes on with the mesh of a trial; returns whether the run goes on.
+bool accept(Run& run, Trial trial) {
+  const bool observed = static_cast<bool>(run.observer.mesh_changed);
+  const std::vector<BeamRecord> before =
+      observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
+  const MeshedState own = std::exchange(run.at, std::move(trial.changed->now));
+  if (run.observer.follower) follow_change(run, own, trial.next, *trial.changed);
+  if (!run.restart_balanced(trial.changed->around)) return false;
+  run.at.state = run.integrator->state();
+  trial.event.support_impulse = support_impulse(run.at, trial.changed->impulse);
+  run.note(std::move(trial.event));
+  if (observed)
+    run.observer.mesh_changed(run.report.events.back(), before, record_beams(*run.at.system, run.at.state));
+  return true;
+}
+
+// Carries a body as a point for good where the change of the mesh that is due beside its node would cost
+// energy and cannot wait. Where that would cost energy too, or the body makes a kink, the run ends.
+bool give_up_node(Run& run, const Trial& costly) {
+  const int rider = costly.next.rider;
+  const auto instead = point_for_good(*run.at.system, run.at.state, run.options.length_control, rider);
+  std::optional<Trial> trial;
+  if (instead) trial.emplace(tried(run, *instead));
+  if (!trial || !trial->keeps_energy) {
+    refuse(run, costly.next, costly.cost());
+    return false;
+  }
+  run.report.points_for_good.push_back(
+      {rider, run.at.state.t, costly.event.s.value_or(0), costly.cost().value_or(0)});
+  return accept(run, std::move(*trial));
+}
+
 // Applies one change of the mesh if one is due and possible. A change that would cost energy waits as long as
 // it can.
 bool change_due_mesh(Run& run) {
@@ -55,35 +113,12 @@ bool change_due_mesh(Run& run) {
     const NextPlan next = next_plan(*run.at.system, run.at.state, run.options.length_control, first);
     run.watch.look(run.at.system, next);
     if (next.change == MeshChange::none) return false;
-    MotionSums sums = motion_sums(*run.at.system, run.at.state, run.model->riders[next.rider].beam);
-    RunEvent event = event_before(run.at, kind_of(next.change), next.rider, sums);
-    std::optional<ChangedMesh> changed =
-        run.is_as_drawn() ? changed_drawing(run.at, next) : changed_mesh(run.at, next, sums.energy);
-    if (changed) {
-      sums = carried_sums(sums, *run.at.system, run.at.state, *changed->now.system, changed->now.state,
-                          event.beam);
-      finish_event(sums, event);
-    }
-    if (!changed || changes_energy(*run.model, sums.energy, event, run.report)) {
-      if (!can_wait(*run.at.system, run.at.state, next)) {
-        const double cost = event.energy_after - event.energy_before;
-        refuse(run, next, changed ? std::optional(cost) : std::nullopt);
-        return false;
-      }
+    Trial trial = tried(run, next);
+    if (!trial.keeps_energy && can_wait(*run.at.system, run.at.state, next)) {
       first = next.rider + 1;
       continue;
     }
-    const bool observed = static_cast<bool>(run.observer.mesh_changed);
-    const std::vector<BeamRecord> before =
-        observed ? record_beams(*run.at.system, run.at.state) : std::vector<BeamRecord>{};
-    const MeshedState own = std::exchange(run.at, std::move(changed->now));
-    if (run.observer.follower) follow_change(run, own, next, *changed);
-    if (!run.restart_balanced(changed->around)) return false;
-    run.at.state = run.integrator->state();
-    event.support_impulse = support_impulse(run.at, changed->impulse);
-    run.note(std::move(event));
-    if (observed)
-      run.observer.mesh_changed(run.report.events.back(), before, record_beams(*run.at.system, run.at.state));
+    if (!(trial.keeps_energy ? accept(run, std::move(trial)) : give_up_node(run, trial))) return false;
     run.report.length_control_seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return true;

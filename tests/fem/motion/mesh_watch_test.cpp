@@ -125,5 +125,30 @@ TEST(MeshWatch, LooksAgainWithJointsSideBySideAndInAnotherMesh) {
   EXPECT_FALSE(watch.is_quiet(other, start));
 }
 
+TEST(PointForGood, GivesUpTheNodeAndBringsHiddenOnesBack) {
+  const auto model = std::make_shared<const BeamModel>(line_with_bodies({0.231}));
+  const auto system = std::make_shared<const BeamSystem>(model, initial_plan(*model));
+  ASSERT_EQ(system->mesh().plan.modes[0], Carried::node);
+  const auto next = point_for_good(*system, drawn_state(*system), {}, 0);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->change, MeshChange::becomes_point);
+  EXPECT_EQ(next->plan.modes[0], Carried::point);
+  EXPECT_EQ(std::ranges::count(next->plan.beams[0].present, false), 0);
+  const auto after = std::make_shared<const BeamSystem>(model, next->plan);
+  State state = drawn_state(*after);
+  EXPECT_EQ(next_plan(*after, state, {}).change, MeshChange::none);
+  MeshPlan free = next->plan;
+  free.points_for_good.clear();
+  const auto otherwise = std::make_shared<const BeamSystem>(model, free);
+  EXPECT_EQ(next_plan(*otherwise, drawn_state(*otherwise), {}).change, MeshChange::becomes_node);
+  EXPECT_FALSE(point_for_good(*after, state, {}, 0)) << "it is one";
+}
+
+TEST(PointForGood, IsNotForAKink) {
+  const auto model = std::make_shared<const BeamModel>(line_with_bodies({0.231}, false));
+  const auto system = std::make_shared<const BeamSystem>(model, initial_plan(*model));
+  EXPECT_FALSE(point_for_good(*system, drawn_state(*system), {}, 0));
+}
+
 }  // namespace
 }  // namespace nurbeam
