@@ -30,7 +30,12 @@ Command verify_entry(int (*run)(const Arguments&, Streams)) {
           "papers: the examples of the papers beside their tables, as a page with figures",
           0,
           1,
-          {{"--out", "DIR", "for the page of the papers"}},
+          {{"--out", "DIR", "for the page of the papers"},
+           {"--for", "CASE.json",
+            "the problems that have most in common with that case, for each of its features"},
+           {"--write", "FILE",
+            "writes which features each problem covers, with its errors: the table that "
+            "nurbeam carries (pipelines/results/verified.tsv)"}},
           run,
           exit_not_written};
 }

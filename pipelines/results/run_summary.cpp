@@ -55,6 +55,16 @@ Json to_json(const RunExtreme& extreme) {
   return json;
 }
 
+Json to_json(const FeatureEvidence& evidence) {
+  Json problems = Json::array();
+  for (const VerifiedProblem& problem : evidence.problems)
+    problems.push_back({{"problem", problem.name},
+                        {"rows", problem.rows},
+                        {"least_error", problem.least},
+                        {"greatest_error", problem.greatest}});
+  return {{"feature", evidence.feature}, {"covered", evidence.is_covered()}, {"problems", problems}};
+}
+
 Json to_json(const ModeTable& table) {
   Json list = Json::array();
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -103,6 +113,7 @@ Json to_json(const RunSummary& summary) {
                {"inputs", list(summary.inputs)},
                {"model", summary.model.empty() ? Json() : Json::parse(summary.model)},
                {"events", events},
+               {"evidence", list(summary.evidence)},
                {"diagnostics", list(summary.diagnostics)},
                {"files", list(summary.files)}};
   if (summary.modes) {

@@ -9,6 +9,7 @@
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/record/run_event.h"
 #include "fem/motion/record/snapshot.h"
+#include "pipelines/results/evidence.h"
 #include "pipelines/results/mode_table.h"
 #include "pipelines/results/run_extremes.h"
 
@@ -76,6 +77,7 @@ struct RunSummary {
   Mismatch axial_mismatch;
   std::vector<RunExtreme> extremes;
   std::optional<ModeTable> modes = {};  ///< of an analysis of modes or buckling
+  std::vector<FeatureEvidence> evidence;
   std::vector<Diagnostic> diagnostics;
   std::vector<std::filesystem::path> files;  ///< written, relative to the results directory
 };

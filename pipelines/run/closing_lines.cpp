@@ -104,6 +104,15 @@ std::string warnings_line(const std::vector<Diagnostic>& diagnostics) {
   return warnings + notes > 0 ? line + ": see above, or run.json" : line;
 }
 
+// The features of the run that no known answer covers; empty where there are none.
+std::string uncovered_line(const std::vector<FeatureEvidence>& evidence) {
+  std::string names;
+  for (const FeatureEvidence& each : evidence)
+    if (!each.is_covered()) names += (names.empty() ? "" : ", ") + each.feature;
+  if (names.empty()) return {};
+  return "no known answer of nurbeam verify is met within " + text_of(close_error) + " with: " + names;
+}
+
 }  // namespace
 
 std::vector<std::string> closing_lines(const RunSummary& summary, const SimulationReport& run, bool moves,
@@ -115,6 +124,7 @@ std::vector<std::string> closing_lines(const RunSummary& summary, const Simulati
     lines.push_back(energy_line(summary, run, moves));
   }
   lines.push_back(warnings_line(summary.diagnostics));
+  if (std::string line = uncovered_line(summary.evidence); !line.empty()) lines.push_back(line);
   lines.push_back(report ? "open " + (out / "report.html").string() : "results in " + out.string());
   return lines;
 }

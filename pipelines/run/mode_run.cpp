@@ -15,17 +15,6 @@ namespace nurbeam {
 
 namespace {
 
-ModesOptions modes_options(const CaseAnalysis& a) {
-  ModesOptions options;
-  options.kind =
-      a.type == CaseAnalysis::Type::buckling ? ModesOptions::Kind::buckling : ModesOptions::Kind::vibration;
-  options.count = a.modes.count;
-  options.about_equilibrium = a.modes.about_equilibrium;
-  options.bodies_held = a.modes.bodies_held;
-  options.length_control = a.length_control;
-  return options;
-}
-
 /// Frames of one period, for ParaView: of a second where nothing swings.
 std::vector<Snapshot> oscillation(const MeshedState& at, const Mode& mode,
                                   const std::vector<ProbePlace>& probes) {
@@ -69,6 +58,17 @@ void note_resolution(const WaveResolution& of, const BeamModel& model, ModeRow& 
 }
 
 }  // namespace
+
+ModesOptions modes_options(const CaseAnalysis& a) {
+  ModesOptions options;
+  options.kind =
+      a.type == CaseAnalysis::Type::buckling ? ModesOptions::Kind::buckling : ModesOptions::Kind::vibration;
+  options.count = a.modes.count;
+  options.about_equilibrium = a.modes.about_equilibrium;
+  options.bodies_held = a.modes.bodies_held;
+  options.length_control = a.length_control;
+  return options;
+}
 
 SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
                            const std::function<bool()>& interrupted, const ModeShapes& shapes,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fem/motion/record/simulation_report.h"
+#include "fem/motion/rest/modes.h"
 #include "pipelines/model/build_model.h"
 #include "pipelines/results/mode_table.h"
 
@@ -16,6 +17,9 @@ struct ModeShapes {
   /// The frames of one period of each, by the name of a series of files.
   std::function<void(const std::string&, const std::vector<Snapshot>&)> turn;
 };
+
+/// How a case of modes or buckling is to be run.
+ModesOptions modes_options(const CaseAnalysis& analysis);
 
 /// Computes the modes or the buckling factors that a case asks for. The first frame is the state they are
 /// about, at time 0; frame i shows mode i, at time i, with an amplitude that makes it visible, and as

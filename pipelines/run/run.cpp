@@ -32,6 +32,7 @@
 #include "pipelines/run/motion_mesh.h"
 #include "pipelines/run/progress.h"
 #include "pipelines/run/round_off.h"
+#include "pipelines/run/run_evidence.h"
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/run/simulation_plan.h"
@@ -319,6 +320,7 @@ int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& op
   summary.version = NURBEAM_VERSION;
   summary.case_name = c.name;
   summary.model = model_summary(c, *report.value);
+  summary.evidence = run_evidence(c, *report.value);
   summary.diagnostics = report.diagnostics;
   summary.wall_times.import = report.value->import_seconds;
   summary.wall_times.model = build_seconds;

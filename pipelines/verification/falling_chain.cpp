@@ -11,6 +11,7 @@
 #include "nurbs/primitives.h"
 #include "pipelines/verification/hanging_string.h"
 #include "pipelines/verification/mass_chain.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "solver/rest/static_equilibrium.h"
 #include "solver/steps/generalized_alpha.h"
@@ -100,7 +101,7 @@ double least_slope(const BeamSystem& system, const State& state) {
 
 FallingChain falling_chain(int elements, double end) {
   constexpr double step = 5e-4;
-  const BeamSystem before(folded_rope(elements, true)), system(folded_rope(elements, false));
+  const BeamSystem before(folded_rope(elements, true)), system(noted(folded_rope(elements, false)));
   State state = drawn_state(before);
   if (find_static_equilibrium({}, before, state).status != StaticStatus::converged)
     throw std::runtime_error("no static equilibrium was found");
@@ -129,7 +130,7 @@ Recoil recoil(int elements) {
   builder.pin(0, 0);
   BeamModel model = builder.build();
   model.beams[0].properties.compression = Compression::buckles;
-  const BeamSystem system(model);
+  const BeamSystem system(noted(model));
   State state = drawn_state(system);
   for (const MeshNode& node : system.mesh().nodes[0]) {
     state.q[node.r] *= 1.01;

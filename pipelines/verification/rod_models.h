@@ -8,6 +8,7 @@
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "solver/rest/static_equilibrium.h"
 
 /// Rods whose sections twist, as the references of docs/verification.md have them.
@@ -44,7 +45,8 @@ struct Rest {
   BeamSystem system;
   State state;
 
-  explicit Rest(const ModelBuilder& builder) : system(builder.build()), state(drawn_state(system)) {
+  explicit Rest(const ModelBuilder& builder)
+      : system(noted(builder.build(), as_statics)), state(drawn_state(system)) {
     const StaticReport found = find_static_equilibrium(StaticEquilibrium{}, system, state);
     if (found.status != StaticStatus::converged) throw std::runtime_error("no static equilibrium was found");
   }

@@ -7,6 +7,7 @@
 #include "nurbs/number_text.h"
 #include "pipelines/model/model_snapshot.h"
 #include "pipelines/run/simulation_plan.h"
+#include "pipelines/verification/noted.h"
 
 namespace nurbeam::verification {
 
@@ -53,8 +54,8 @@ RunRecord run_text(const std::string& text) {
   observer.snapshot = [&](const Snapshot& frame) {
     record.frames.push_back(to_world(built.value->frame, frame));
   };
-  record.report =
-      simulate(built.value->model, probe_places(*built.value), simulation_options(*read.value), observer);
+  record.report = simulate(noted(built.value->model, simulation_options(*read.value)),
+                           probe_places(*built.value), simulation_options(*read.value), observer);
   if (record.report.status != SimulationStatus::done)
     throw std::runtime_error(outcome_in_world(record.report, *built.value));
   return record;

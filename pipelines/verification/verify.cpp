@@ -11,6 +11,8 @@
 #include <sstream>
 #include <thread>
 
+#include "pipelines/verification/noted.h"
+
 namespace nurbeam {
 
 namespace {
@@ -61,34 +63,14 @@ void print_convergence(std::ostream& out, const std::string& problem, const Conv
 
 VerifyResult run_problem(const VerifyProblem& problem) {
   try {
-    return problem.run();
+    (void)verification::take_noted();
+    VerifyResult result = problem.run();
+    result.features = verification::take_noted();
+    return result;
   } catch (const std::exception& error) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     return {{{"the run itself", none, error.what(), none, 0}}, {}};
   }
-}
-
-// Results in the order of the problems. The last, which take longest, are begun first.
-std::vector<VerifyResult> run_all(const std::vector<VerifyProblem>& problems, std::ostream& progress) {
-  std::vector<VerifyResult> results(problems.size());
-  std::atomic<std::size_t> left = problems.size();
-  std::mutex printing;
-  const auto work = [&] {
-    for (std::size_t rank = left--; rank > 0 && rank <= problems.size(); rank = left--) {
-      const auto start = std::chrono::steady_clock::now();
-      results[rank - 1] = run_problem(problems[rank - 1]);
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-      const std::lock_guard lock(printing);
-      progress << problems[rank - 1].name << ": " << number(time.count(), 2) << " s\n" << std::flush;
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), problems.size());
-    for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
-    work();
-  }
-  return results;
 }
 
 void append(std::vector<VerifyProblem>& all, std::vector<VerifyProblem> more) {
@@ -130,6 +112,7 @@ void VerifyResult::add(ConvergenceTable table, double expected, double tolerance
 std::vector<VerifyProblem> verification_problems() {
   std::vector<VerifyProblem> all = statics_problems();
   append(all, limit_problems());
+  append(all, experiment_problems());
   append(all, axial_strain_problems());
   append(all, dynamics_problems());
   append(all, invariance_problems());
@@ -148,8 +131,31 @@ std::vector<VerifyProblem> verification_problems() {
   return all;
 }
 
-int verify(const std::vector<VerifyProblem>& problems, std::ostream& out, std::ostream& progress) {
-  const std::vector<VerifyResult> results = run_all(problems, progress);
+std::vector<VerifyResult> run_all(const std::vector<VerifyProblem>& problems, std::ostream& progress) {
+  std::vector<VerifyResult> results(problems.size());
+  std::atomic<std::size_t> left = problems.size();
+  std::mutex printing;
+  // The last problems, which take longest, are begun first.
+  const auto work = [&] {
+    for (std::size_t rank = left--; rank > 0 && rank <= problems.size(); rank = left--) {
+      const auto start = std::chrono::steady_clock::now();
+      results[rank - 1] = run_problem(problems[rank - 1]);
+      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+      const std::lock_guard lock(printing);
+      progress << problems[rank - 1].name << ": " << number(time.count(), 2) << " s\n" << std::flush;
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), problems.size());
+    for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
+    work();
+  }
+  return results;
+}
+
+int print_results(const std::vector<VerifyProblem>& problems, const std::vector<VerifyResult>& results,
+                  std::ostream& out) {
   print_rows(out, problems, results);
   int passed = 0, failed = 0;
   for (std::size_t p = 0; p < problems.size(); ++p) {
@@ -158,6 +164,26 @@ int verify(const std::vector<VerifyProblem>& problems, std::ostream& out, std::o
   }
   out << '\n' << passed << " passed, " << failed << " failed\n";
   return failed == 0 ? 0 : 1;
+}
+
+std::vector<VerifiedProblem> verified(const std::vector<VerifyProblem>& problems,
+                                      const std::vector<VerifyResult>& results) {
+  std::vector<VerifiedProblem> all;
+  for (std::size_t p = 0; p < problems.size(); ++p) {
+    VerifiedProblem& problem = all.emplace_back(problems[p].name);
+    problem.features = results[p].features;
+    problem.least = std::numeric_limits<double>::infinity();
+    for (const VerifyRow& row : results[p].rows) {
+      if (row.at_least || (row.reference == 0 && row.computed == 0)) continue;
+      constexpr double as_good_as_0 = 1e-12;
+      const double size = std::abs(row.reference), error = row.error() / (size > as_good_as_0 ? size : 1);
+      ++problem.rows;
+      problem.least = std::min(problem.least, error);
+      problem.greatest = std::max(problem.greatest, error);
+    }
+    if (problem.rows == 0) problem.least = problem.greatest = 0;
+  }
+  return all;
 }
 
 }  // namespace nurbeam

@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/model/features.h"
+#include "pipelines/results/evidence.h"
+
 namespace nurbeam {
 
 /// One number of a verification problem beside what it should be.
@@ -34,6 +37,7 @@ struct ConvergenceTable {
 struct VerifyResult {
   std::vector<VerifyRow> rows;
   std::vector<ConvergenceTable> tables;
+  Features features = {};  ///< of all models and analyses it was computed with
 
   void add(std::string quantity, double reference, std::string source, double computed, double tolerance);
   /// The table, and a row that asks for an order of at least `expected` up to the tolerance between any two
@@ -53,6 +57,7 @@ std::vector<VerifyProblem> verification_problems();
 /// Its families.
 std::vector<VerifyProblem> statics_problems();
 std::vector<VerifyProblem> limit_problems();
+std::vector<VerifyProblem> experiment_problems();
 std::vector<VerifyProblem> axial_strain_problems();
 std::vector<VerifyProblem> dynamics_problems();
 std::vector<VerifyProblem> sliding_problems();
@@ -69,9 +74,16 @@ std::vector<VerifyProblem> energy_problems();
 std::vector<VerifyProblem> rope_problems();
 std::vector<VerifyProblem> rope_motion_problems();
 
-/// Runs the problems, as many at a time as there are processors, and prints their table to `out` and what is
-/// done so far to `progress`. A problem that throws is one failed row. Returns the exit code: 0, or 1 when a
-/// row fails.
-int verify(const std::vector<VerifyProblem>& problems, std::ostream& out, std::ostream& progress);
+/// Runs the problems, as many at a time as there are processors, in their order; what is done so far is
+/// printed to `progress`. A problem that throws is one failed row.
+std::vector<VerifyResult> run_all(const std::vector<VerifyProblem>& problems, std::ostream& progress);
+
+/// Prints the table of results. Returns the exit code: 0, or 1 when a row fails.
+int print_results(const std::vector<VerifyProblem>& problems, const std::vector<VerifyResult>& results,
+                  std::ostream& out);
+
+/// What the results are evidence for. Numbers that are 0 as they should be, by symmetry, do not count.
+std::vector<VerifiedProblem> verified(const std::vector<VerifyProblem>& problems,
+                                      const std::vector<VerifyResult>& results);
 
 }  // namespace nurbeam

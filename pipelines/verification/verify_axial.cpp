@@ -10,6 +10,7 @@
 #include "fem/system/observables.h"
 #include "nurbs/number_text.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_examples.h"
 #include "pipelines/verification/verify_oracles.h"
@@ -26,7 +27,7 @@ using std::numbers::pi;
 /// The beams of a planar model in equilibrium, found from its drawn shape, and its energy.
 struct AtRest {
   explicit AtRest(const BeamModel& model) {
-    const BeamSystem system(model);
+    const BeamSystem system(noted(model, as_statics));
     State state = drawn_state(system);
     if (find_static_equilibrium({}, system, state).status != StaticStatus::converged)
       throw std::runtime_error("no static equilibrium was found");

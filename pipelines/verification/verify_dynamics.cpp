@@ -12,6 +12,7 @@
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/references.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_oracles.h"
@@ -46,7 +47,7 @@ Eigen::VectorXd frequencies(const BeamSystem& system, const State& state) {
 /// The same about the drawn shape stretched by a factor.
 Eigen::VectorXd frequencies(BeamModel model, double stretch = 1) {
   model.gravity.setZero();
-  const BeamSystem system(model, initial_plan(model));
+  const BeamSystem system(noted(model), initial_plan(model));
   State state = drawn_state(system);
   state.q *= stretch;
   return frequencies(system, state);
@@ -121,7 +122,7 @@ Spin steady_spin(double a) {
   BeamModel model = bar_of_one_metre(bar, 8, {{0, false}});
   model.gravity.setZero();
   const double wave_speed = std::sqrt(bar.axial_stiffness / bar.mass_per_length);
-  const BeamSystem system(model, initial_plan(model));
+  const BeamSystem system(noted(model), initial_plan(model));
   State state = drawn_state(system);
   for (const MeshNode& node : system.mesh().nodes[0])
     for (const int place : {node.r, node.slope_left})

@@ -12,6 +12,7 @@
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_examples.h"
 #include "pipelines/verification/verify_run.h"
@@ -177,7 +178,7 @@ VerifyResult split() {
   full.beams[0].present.assign(home.size(), true);
   MeshPlan coarse = full;
   coarse.beams[0].present[4] = coarse.beams[0].present[7] = false;
-  const BeamSystem from(model, coarse), to(model, full);
+  const BeamSystem from(noted(model), coarse), to(model, full);
   State state = drawn_state(from);
   start_moving(from, state);
   if (make_accelerations_smooth(from, 2e-4, state) != ConsistencyStatus::done)

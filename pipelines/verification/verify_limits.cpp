@@ -8,6 +8,7 @@
 #include "fem/system/initial_state.h"
 #include "nurbs/number_text.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 #include "solver/algebra/sparse_lu.h"
 #include "solver/system/tangent_matrix.h"
@@ -26,7 +27,7 @@ class MovedByItsLoad {
  public:
   /// `s`: of the load on the first beam, at a node.
   MovedByItsLoad(const BeamModel& model, double s, const Vector2d& direction)
-      : system_(model), state_(drawn_state(system_)), direction_(direction) {
+      : system_(noted(model, as_statics)), state_(drawn_state(system_)), direction_(direction) {
     for (const MeshNode& node : system_.mesh().nodes[0])
       if (std::abs(node.s - s) < 1e-9 * s) place_ = node.r;
     if (place_ < 0) throw std::runtime_error("no node stands under the load");

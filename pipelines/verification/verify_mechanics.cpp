@@ -13,6 +13,7 @@
 #include "fem/system/initial_state.h"
 #include "pipelines/verification/hanging_string.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_run.h"
 #include "solver/steps/generalized_alpha.h"
@@ -44,7 +45,7 @@ Snapshot at_rest(const BeamModel& model, const std::vector<ProbePlace>& probes) 
   options.output_times = {0};
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& frame) { found = frame; };
-  const SimulationReport report = simulate(model, probes, options, observer);
+  const SimulationReport report = simulate(noted(model, options), probes, options, observer);
   if (report.failure || !found) throw std::runtime_error("no rest was found");
   return *found;
 }
@@ -63,7 +64,7 @@ BeamModel vibrating_string(const BeamProperties& properties) {
 // length.
 std::vector<double> decay(const BeamProperties& properties, double step, const std::vector<double>& times) {
   const double amplitude = 1e-6 * string_length;
-  const BeamSystem system(vibrating_string(properties));
+  const BeamSystem system(noted(vibrating_string(properties)));
   State state = drawn_state(system);
   const Mesh& mesh = system.mesh();
   double middle = -1;
@@ -89,8 +90,9 @@ VerifyResult tension() {
   VerifyResult result;
   const double EA = 1e6, speed = std::sqrt(string_tension / string_mass), unit = pi * speed / string_length;
   const BeamProperties properties = taut(EA, 1e-9, string_mass, string_tension);
-  const ModesReport modes = find_modes(std::make_shared<const BeamModel>(vibrating_string(properties)),
-                                       {.count = 3}, [] { return false; });
+  const ModesReport modes =
+      find_modes(std::make_shared<const BeamModel>(noted(vibrating_string(properties), ModesOptions{})),
+                 {.count = 3}, [] { return false; });
   for (int n = 1; n <= 3; ++n)
     result.add("string under tension [rad/s], mode " + std::to_string(n), n * unit, "n pi c/L",
                modes.modes.at(n - 1).omega, 1e-5 * n * unit);

@@ -10,6 +10,7 @@
 #include "fem/motion/rest/modes.h"
 #include "fem/system/material_points.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 
 namespace nurbeam {
@@ -21,7 +22,8 @@ using Eigen::Vector3d;
 using std::numbers::pi;
 
 ModesReport modes_of(const BeamModel& model, const ModesOptions& options) {
-  ModesReport report = find_modes(std::make_shared<const BeamModel>(model), options, [] { return false; });
+  ModesReport report =
+      find_modes(std::make_shared<const BeamModel>(noted(model, options)), options, [] { return false; });
   if (report.rest.failure) throw std::runtime_error("the modes were not found");
   return report;
 }

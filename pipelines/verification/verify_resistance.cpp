@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_run.h"
 
@@ -231,7 +232,7 @@ VerifyResult friction_at_a_kink() {
     std::vector<Snapshot> frames;
     SimulationObserver observer;
     observer.snapshot = [&](const Snapshot& frame) { frames.push_back(frame); };
-    const SimulationReport report = simulate(builder.build(), {}, options, observer);
+    const SimulationReport report = simulate(noted(builder.build(), options), {}, options, observer);
     if (report.status != SimulationStatus::done) throw std::runtime_error("no state at rest");
     const Kink kink(frames.at(0), rope.mass_per_length * g_of_earth, X);
     if (law == Friction::Law::capstan)

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/verification/noted.h"
 
 namespace nurbeam::verification {
 
@@ -17,7 +18,7 @@ RunRecord run_model(const BeamModel& model, const std::vector<double>& times, do
   options.integrator = integrator;
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& frame) { record.frames.push_back(frame); };
-  record.report = simulate(model, probes, options, observer);
+  record.report = simulate(noted(model, options), probes, options, observer);
   if (record.report.status != SimulationStatus::done)
     throw std::runtime_error(outcome_text(record.report, model));
   return record;

@@ -9,6 +9,7 @@
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 #include "pipelines/verification/verify_oracles.h"
 #include "solver/rest/static_equilibrium.h"
@@ -23,7 +24,7 @@ using std::numbers::pi;
 /// A planar model without sliding joints in equilibrium, found from its drawn shape.
 class PlanarRest {
  public:
-  explicit PlanarRest(const BeamModel& model) : system_(model) {
+  explicit PlanarRest(const BeamModel& model) : system_(noted(model, as_statics)) {
     state_ = drawn_state(system_);
     const StaticReport found = find_static_equilibrium(StaticEquilibrium{}, system_, state_);
     if (found.status != StaticStatus::converged) throw std::runtime_error("no static equilibrium was found");

@@ -6,6 +6,7 @@
 #include "fem/element/section_frame.h"
 #include "fem/system/assembly.h"
 #include "fem/system/observables.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
 
@@ -182,7 +183,7 @@ VerifyResult turned_drawings() {
     for (const int elements : {1, 2, 4, 8}) {
       ModelBuilder builder(3);
       builder.add_beam(twisted_curve(), twisted_rod.properties(), {elements});
-      const BeamSystem system(builder.build());
+      const BeamSystem system(noted(builder.build()));
       const Vector3d about = Vector3d(0.6, 0.5, 0.62).normalized();  // no tangent comes to its opposite
       const State state =
           turned_drawing(system, Eigen::AngleAxisd(degrees * pi / 180, about).toRotationMatrix());

@@ -10,6 +10,7 @@
 #include "fem/system/initial_state.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
 #include "solver/steps/explicit_integrator.h"
@@ -40,7 +41,7 @@ struct Flight {
     properties.axial_strain = AxialStrain::pointwise;
     ModelBuilder builder(3);
     builder.add_beam(arc.oriented({Rule::start, Vector3d::UnitZ(), {{0, 0}, {L, 1.2 * L}}}), properties, {2});
-    at = MeshedState::drawn(std::make_shared<const BeamModel>(builder.build()));
+    at = MeshedState::drawn(std::make_shared<const BeamModel>(noted(builder.build())));
     const Vector3d w(6, -4, 5);
     int k = 0;
     for (const MeshNode& node : at.system->mesh().nodes[0]) {

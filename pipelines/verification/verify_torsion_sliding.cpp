@@ -9,6 +9,7 @@
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "pipelines/verification/models.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 #include "solver/steps/explicit_integrator.h"
 #include "solver/system/consistent.h"
@@ -41,7 +42,7 @@ VerifyResult node_over_a_rod_at_rest() {
   BeamModel model = twisted_arc(mass, speed, {0, 0, 0}, AxialStrain::pointwise);
   const double start = model.riders[0].s;
   model.riders[0].motion = TimeTable{{0, start}, {1, start + speed}};  // else it is too light to be a node
-  const BeamSystem system(model);
+  const BeamSystem system(noted(model));
   State state = drawn_state(system);
   start_moving(system, state);
   const SystemEnergy at = energy(system, state);
@@ -60,7 +61,7 @@ struct Ride {
 
   explicit Ride(AxialStrain strain)
       : model(clamped(twisted_arc(0.7, 0.8, {0.3, -1.5, -2}, strain))),
-        system(model),
+        system(noted(model)),
         state(drawn_state(system)) {
     start_moving(system, state);
     if (make_accelerations_consistent(system, state) != ConsistencyStatus::done)

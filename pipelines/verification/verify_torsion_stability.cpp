@@ -8,6 +8,7 @@
 #include "fem/system/assembly.h"
 #include "fem/system/observables.h"
 #include "nurbs/number_text.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/rod_models.h"
 #include "pipelines/verification/verify.h"
 #include "solver/system/tangent_matrix.h"
@@ -96,7 +97,7 @@ VerifyResult torsional_frequencies() {
     properties.sections = SectionStiffness{1, 1, 0, 1, 1};
     ModelBuilder builder(3);
     builder.add_beam(straight_rod(1), properties, {elements});
-    const BeamSystem system(builder.clamp(0, 0).build());
+    const BeamSystem system(noted(builder.clamp(0, 0).build()));
     const AllowedMotions motions(system, drawn_state(system));
     // Bending and stretching are decoupled, and as slow or slower: take the frequencies nearest to the
     // answer.
@@ -139,7 +140,7 @@ double moment_of_a_clamped_rod(int elements, double tension, double lo, double h
   const double L = 2, EA = tension > 0 ? 1e8 : 1e4;
   ModelBuilder builder(3);
   builder.add_beam(straight_rod(L), Rod{EA, 1, 1, 0, 0.8}.properties(), {elements});
-  const BeamSystem system(builder.build());
+  const BeamSystem system(noted(builder.build(), as_statics));
   const MeshNode &first = system.mesh().nodes[0].front(), &last = system.mesh().nodes[0].back();
   std::vector<bool> held(system.coordinate_count(), false);
   for (const int d : {0, 1, 2}) held[first.r + d] = true;
@@ -190,7 +191,7 @@ VerifyResult twisted_ring() {
     ModelBuilder builder(3);
     builder.add_beam(ReferenceCurve(arc_cubics({0, 0, 0}, R, 0, 2 * pi, 4), 3).straightened().oriented({}),
                      Rod{1e6, 1, 1, 0, 0.8}.properties(), {elements});
-    const BeamSystem system(builder.build());
+    const BeamSystem system(noted(builder.build(), as_statics));
     // The end is tied to the start; its section stays turned against it by the twist.
     const MeshNode &first = system.mesh().nodes[0].front(), &last = system.mesh().nodes[0].back();
     const int n = system.coordinate_count();
@@ -238,7 +239,7 @@ State equilibrium(const BeamSystem& system, State state, double load) {
 }
 
 double critical_load(const BeamModel& model, double lo, double hi) {
-  const BeamSystem system(model);
+  const BeamSystem system(noted(model, as_statics));
   return critical(
       [&](double load) {
         const State state = equilibrium(system, drawn_state(system), load);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "pipelines/results/verified_table.h"
+#include "pipelines/verification/noted.h"
 #include "pipelines/verification/verify.h"
 
 namespace nurbeam {
@@ -11,8 +13,17 @@ namespace {
 
 class Verification : public ::testing::TestWithParam<VerifyProblem> {};
 
+Features features_in_table(const std::string& name) {
+  for (const VerifiedProblem& problem : read_verified(verified_table))
+    if (problem.name == name) return problem.features;
+  return {};
+}
+
 TEST_P(Verification, AgreesWithTheKnownAnswer) {
+  (void)verification::take_noted();
   const VerifyResult result = GetParam().run();
+  EXPECT_EQ(verification::take_noted(), features_in_table(GetParam().name))
+      << "make the table anew: nurbeam verify --write pipelines/results/verified.tsv";
   EXPECT_FALSE(result.rows.empty());
   for (const VerifyRow& row : result.rows)
     EXPECT_TRUE(row.passes()) << row.quantity << ": " << row.computed << ", not " << row.reference << " ("

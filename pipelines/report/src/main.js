@@ -6,7 +6,7 @@ import { start_exaggeration } from './exaggeration.js';
 import { modes_of, modes_table, start_modes } from './modes.js';
 import { Player, speeds } from './player.js';
 import { AlongPlot, Plot, plots_of } from './plots.js';
-import { diagnostics_list, energy_table, events_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
+import { diagnostics_list, energy_table, events_table, evidence_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
 import { View } from './view.js';
 
 const $ = (id) => document.getElementById(id);
@@ -314,6 +314,8 @@ function fill_tables() {
   fill('balance', energy_table(data));
   fill('events', events_table(events, (t) => player.go_to_time(t)));
   fill('warnings', diagnostics_list(run?.diagnostics ?? []));
+  fill('evidence', [evidence_table(run)]);
+  $('evidence').closest('section').hidden = !run?.evidence?.length;
   fill('run', run_tables(run));
 }
 
@@ -326,7 +328,7 @@ start_along();
 start_plots();
 fill_tables();
 if (is_drawing) {
-  for (const id of ['plots', 'extremes', 'balance', 'events', 'run']) {
+  for (const id of ['plots', 'extremes', 'balance', 'events', 'evidence', 'run']) {
     $(id).closest('section').hidden = true;
   }
 }

@@ -251,6 +251,21 @@ export function diagnostics_list(diagnostics) {
       element('span', { class: 'where' }, where), element('span', { class: 'message' }, message))));
 }
 
+/** Which known answers cover what the run used. */
+export function evidence_table(run) {
+  const evidence = run?.evidence ?? [];
+  if (!evidence.length) {
+    return null;
+  }
+  const rows = evidence.map(({ feature, covered, problems }) => ({
+    feature,
+    'least error': problems.length ? problems[0].least_error : null,
+    'met within 1e-4': covered ? 'yes' : 'no',
+    'problems of nurbeam verify': problems.map(({ problem }) => problem).join(', '),
+  }));
+  return table_of('Known answers with the features of this run', rows);
+}
+
 export function run_tables(run) {
   if (!run) {
     return [];

@@ -38,6 +38,7 @@ TEST(RunSummary, IsWrittenAsJsonWithUnits) {
   event.energy_after = 2;
   event.momentum_before = {1, 2, 3};
   summary.events = {event};
+  summary.evidence = {{"torsion", {{"torsion-helix", 3, 2e-7, 4e-6, {"torsion"}}}}, {"snow", {}}};
   summary.diagnostics = {{Severity::warning, "case.json: output", "message"}};
   summary.files = {"histories.csv"};
   write_run_summary(directory.path() / "run.json", summary);
@@ -51,6 +52,10 @@ TEST(RunSummary, IsWrittenAsJsonWithUnits) {
   EXPECT_TRUE(json.at("energy_drift [J]").is_null());
   EXPECT_EQ(json.at("events").at(0).at("momentum_before [kg m/s]"), nlohmann::json({1.0, 2.0, 3.0}));
   EXPECT_TRUE(json.at("events").at(0).at("s [m]").is_null());
+  EXPECT_EQ(json.at("evidence").at(0).at("problems").at(0).at("problem"), "torsion-helix");
+  EXPECT_EQ(json.at("evidence").at(0).at("problems").at(0).at("least_error"), 2e-7);
+  EXPECT_EQ(json.at("evidence").at(0).at("covered"), true);
+  EXPECT_EQ(json.at("evidence").at(1).at("covered"), false);
   EXPECT_EQ(json.at("diagnostics").at(0).at("severity"), "warning");
   EXPECT_EQ(json.at("files"), nlohmann::json::array({"histories.csv"}));
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "run.json.part"));

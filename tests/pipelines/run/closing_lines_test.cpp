@@ -81,4 +81,14 @@ TEST(ReadableQuantity, HasThePrefixThatPeopleWrite) {
 }
 
 }  // namespace
+TEST(ClosingLines, NameTheFeaturesThatNoKnownAnswerCovers) {
+  RunSummary summary;
+  summary.evidence = {{"torsion", {{"torsion-helix", 3, 2e-7, 4e-6, {}}}},
+                      {"snow", {}},
+                      {"wind", {{"gale", 1, 0.1, 0.1, {}}}}};
+  const auto lines = closing_lines(summary, {}, false, "out", false);
+  EXPECT_EQ(lines[lines.size() - 2],
+            "no known answer of nurbeam verify is met within 0.0001 with: snow, wind");
+}
+
 }  // namespace nurbeam::of_closing_lines

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 #include "pipelines/command/command_line.h"
 #include "pipelines/papers/verify_command.h"
+#include "pipelines/results/verified_table.h"
 
 namespace nurbeam {
 namespace {
@@ -19,7 +21,7 @@ struct Outcome {
 
 Outcome run(const std::vector<VerifyProblem>& problems) {
   std::ostringstream out, err;
-  const int code = verify(problems, out, err);
+  const int code = print_results(problems, run_all(problems, err), out);
   return {code, out.str(), err.str()};
 }
 
@@ -87,6 +89,34 @@ TEST(Verify, AsksForAnOrderOfConvergenceFromBelowOnly) {
                     "  8         0.001     4\n  16        1.56e-05  6\n"));
 }
 
+TEST(Verified, HoldsTheErrorsOfNumbersWithAReference) {
+  VerifyResult result;
+  result.add("order", 4, "theory", 3, 2);
+  result.rows[0].at_least = true;
+  result.add("tip [m]", 2, "a book", 2.0002, 1);
+  result.add("gap [m]", 0, "a book", -1e-6, 1);
+  result.add("zero by symmetry [m]", 0, "a book", 0, 1);
+  result.features = {"torsion"};
+  const std::vector<VerifiedProblem> found = verified({{"one", "", {}}}, {result});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].rows, 2);
+  EXPECT_NEAR(found[0].least, 1e-6, 1e-15);
+  EXPECT_NEAR(found[0].greatest, 1e-4, 1e-12);
+  EXPECT_EQ(found[0].features, Features{"torsion"});
+}
+
+// After a change: nurbeam verify --write pipelines/results/verified.tsv.
+TEST(VerifiedTable, NamesTheProblemsAndFeaturesOfToday) {
+  const std::vector<VerifyProblem> problems = verification_problems();
+  const std::vector<VerifiedProblem> table = read_verified(verified_table);
+  ASSERT_EQ(table.size(), problems.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    EXPECT_EQ(table[i].name, problems[i].name);
+    EXPECT_TRUE(std::ranges::includes(all_features(), table[i].features)) << table[i].name;
+    EXPECT_FALSE(table[i].features.empty()) << table[i].name;
+  }
+}
+
 TEST(VerificationProblems, HaveDifferentNames) {
   const std::vector<VerifyProblem> problems = verification_problems();
   for (std::size_t i = 0; i < problems.size(); ++i)
@@ -105,6 +135,10 @@ TEST(VerifyCommand, RefusesWhatItDoesNotKnow) {
   const Outcome unknown = run_words({"verify", "rol-up"});
   EXPECT_EQ(unknown.code, 2);
   EXPECT_TRUE(holds(unknown.err, "did you mean \"roll-up\"")) << unknown.err;
+  EXPECT_EQ(run_words({"verify", "--for", "missing.json"}).code, 2);
+  const Outcome part = run_words({"verify", "roll-up", "--write", "verified.tsv"});
+  EXPECT_EQ(part.code, 2);
+  EXPECT_TRUE(holds(part.err, "leave out the name and --for")) << part.err;
 }
 
 }  // namespace

@@ -1,0 +1,292 @@
+#include "pipelines/model/features.h"
+
+#include <cassert>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+namespace nurbeam {
+
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+// Collects names; a name that all_features() lacks is a mistake of this file.
+class Named {
+ public:
+  void add(const char* name, bool is_used = true) {
+    if (!is_used) return;
+    assert(all_features().contains(name));
+    found_.insert(name);
+  }
+  Features found() && { return std::move(found_); }
+
+ private:
+  Features found_;
+};
+
+bool has_equal_bending(const SectionStiffness& s) {
+  constexpr double round_off = 1e-9;
+  return std::abs(s.bending_1 - s.bending_2) <= round_off * s.bending_1 &&
+         std::abs(s.bending_product) <= round_off * s.bending_1;
+}
+
+void add_element(const Beam& beam, Named& named) {
+  const BeamProperties& p = beam.properties;
+  named.add("element: material weights", beam.weights == WeightRule::material);
+  named.add("element: constant weights", beam.weights == WeightRule::constant);
+  named.add("element: ones for weights", beam.weights == WeightRule::ones);
+  named.add("element: papers' form", beam.form == Form::virtual_work);
+  named.add("element: papers' merge", beam.merge != MergeRule::standard);
+  named.add("axial strain: assumed", p.axial_strain == AxialStrain::ends_and_mean);
+  named.add("axial strain: pointwise", p.axial_strain == AxialStrain::pointwise);
+  named.add("curvature: material", p.curvature == CurvatureMeasure::material);
+  named.add("curvature: spatial", p.curvature == CurvatureMeasure::spatial);
+}
+
+void add_law(const BeamProperties& p, Named& named) {
+  named.add("law: green", std::holds_alternative<GreenLaw>(p.law));
+  named.add("law: hooke", std::holds_alternative<HookeLaw>(p.law));
+  named.add("law: rows", std::holds_alternative<ForceOverStretch>(p.law));
+  named.add("compression buckles", p.compression == Compression::buckles);
+  named.add("damping of strain", p.damping > 0);
+  named.add("damping of tension", p.tension_damping > 0);
+  named.add("damping by mass", p.mass_damping > 0);
+  named.add("unstressed length", p.free_strain.constant != 0);
+  named.add("tension as drawn", p.free_strain.of_tension != 0);
+  named.add("thermal expansion", !p.free_strain.thermal.empty());
+  if (!p.sections) return;
+  named.add("torsion");
+  named.add("unequal bending", !has_equal_bending(*p.sections));
+}
+
+void add_beam(const Beam& beam, Named& named) {
+  named.add("rigid track", beam.rigid);
+  named.add("ring", beam.is_ring());
+  if (beam.rigid) return;
+  add_element(beam, named);
+  add_law(beam.properties, named);
+  named.add("stress-free: straight", beam.curve.straight());
+  named.add("stress-free: as drawn", !beam.curve.straight());
+  named.add("initial velocity", beam.velocity.has_value());
+  named.add("pipe bends", !beam.bends.empty());
+  for (const HomeNode& node : beam.home) {
+    named.add("slope discontinuity of a rope", node.kind == NodeKind::kink || node.sharp || node.sharp_clamp);
+    named.add("corner", node.kind == NodeKind::rigid);
+    named.add("hinge", node.kind == NodeKind::hinge);
+  }
+}
+
+void add_friction(const Friction& friction, Named& named) {
+  named.add("friction: coulomb", friction.coefficient > 0 && friction.law == Friction::Law::coulomb);
+  named.add("friction: capstan", friction.coefficient > 0 && friction.law == Friction::Law::capstan);
+  named.add("friction: bearing", friction.coefficient > 0 && friction.law == Friction::Law::bearing);
+  named.add("brake", !friction.force.empty() || !friction.force_over.empty());
+  named.add("viscous resistance", friction.viscous > 0);
+}
+
+void add_rider(const Rider& rider, const Structure& structure, Named& named) {
+  named.add("sliding body");
+  named.add("carried as a point", rider.as_point && !structure.beam_of(rider).rigid);
+  named.add("discontinuous slope", !rider.continuous_slope);
+  named.add("prescribed place", rider.motion.has_value());
+  named.add("release", rider.release.has_value());
+  named.add("follows the section", rider.follows_section);
+  named.add("offset from the axis", rider.is_offset());
+  if (rider.friction) add_friction(*rider.friction, named);
+}
+
+void add_connector(const Connector& connector, Named& named) {
+  named.add("spring", connector.type == ConnectorType::spring);
+  named.add("tension-only", connector.type == ConnectorType::tension_only);
+  named.add("compression-only", connector.type == ConnectorType::compression_only);
+  named.add("rod", connector.type == ConnectorType::rod);
+  named.add("damper", connector.damping > 0);
+  named.add("connector by rows", connector.rows.has_value());
+  named.add("connector along a direction", connector.direction.has_value());
+  named.add("connector length to be found", connector.length_rule != ConnectorLength::given);
+}
+
+void add_stop(const Stop& stop, Named& named) {
+  named.add("hard stop", !stop.buffer);
+  named.add("buffer", stop.buffer.has_value());
+  named.add("stop between bodies", stop.other >= 0);
+}
+
+void add_constraint(const Constraint& constraint, Named& named) {
+  std::visit(Overloaded{[&](const Support& support) {
+                          named.add("clamped", support.clamped);
+                          named.add("fork", support.fork);
+                          named.add("guided", support.guide.has_value());
+                          named.add("hinge with an axis", support.axis.has_value());
+                          named.add("pinned",
+                                    !support.clamped && !support.fork && !support.guide && !support.axis);
+                          named.add("moved support", support.motion.has_value());
+                        },
+                        [&](const BeamJoint& joint) {
+                          named.add("rigid joint", joint.rigid);
+                          named.add("pinned joint", !joint.rigid);
+                          named.add("hinge with an axis", joint.axis.has_value());
+                        },
+                        [&](const HeldBody&) { named.add("eyelet"); }},
+             constraint);
+}
+
+void add_load_at_place(const LoadAtPlace& load, Named& named) {
+  named.add("load that turns with the beam", load.follower);
+  named.add("load that moves", load.speed != 0);
+  named.add("load over time", !load.time.empty());
+}
+
+void add_force(const Force& force, Named& named) {
+  std::visit(Overloaded{[&](const PointLoad& load) {
+                          named.add("point force");
+                          add_load_at_place(load, named);
+                        },
+                        [&](const Moment& load) {
+                          named.add("moment");
+                          add_load_at_place(load, named);
+                        },
+                        [&](const LineLoad& load) {
+                          named.add("force per length");
+                          named.add("load over time", !load.time.empty());
+                        },
+                        [&](const LineTorque& load) {
+                          named.add("torque per length");
+                          named.add("load over time", !load.time.empty());
+                        },
+                        [&](const PlaceMass&) { named.add("mass at a place"); },
+                        [&](const CustomForce&) { named.add("force of a program"); }},
+             force);
+}
+
+}  // namespace
+
+Features features_of(const BeamModel& model) {
+  Named named;
+  named.add(model.dimension == 2 ? "plane" : "space");
+  named.add("gravity", !model.gravity.isZero(0));
+  for (const Beam& beam : model.beams) add_beam(beam, named);
+  for (const Rider& rider : model.riders) add_rider(rider, model, named);
+  for (const Body& body : model.bodies) {
+    named.add("air drag", body.drag_area > 0 && model.air.density > 0);
+    named.add("wind", body.drag_area > 0 && model.air.density > 0 && !model.air.wind.isZero(0));
+  }
+  for (const Connector& connector : model.connectors) add_connector(connector, named);
+  for (const Stop& stop : model.stops) add_stop(stop, named);
+  for (const Constraint& constraint : model.constraints) add_constraint(constraint, named);
+  for (const Force& force : model.forces) add_force(force, named);
+  return std::move(named).found();
+}
+
+Features features_of(const SimulationOptions& options) {
+  Named named;
+  named.add("statics", options.statics);
+  if (options.statics) return std::move(named).found();
+  named.add("motion");
+  named.add("motion from an equilibrium", options.start_from_equilibrium);
+  named.add("error control", !options.step);
+  std::visit(Overloaded{[&](const GeneralizedAlpha&) { named.add("integrator: generalized-alpha"); },
+                        [&](const ExplicitRungeKutta&) { named.add("integrator: rk4"); },
+                        [&](const Radau&) { named.add("integrator: radau"); }},
+             options.integrator);
+  return std::move(named).found();
+}
+
+Features features_of(const ModesOptions& options) {
+  return {options.kind == ModesOptions::Kind::buckling ? "buckling" : "modes"};
+}
+
+const Features& all_features() {
+  static const Features all{"air drag",
+                            "axial strain: assumed",
+                            "axial strain: pointwise",
+                            "brake",
+                            "buckling",
+                            "buffer",
+                            "carried as a point",
+                            "clamped",
+                            "compression buckles",
+                            "compression-only",
+                            "connector along a direction",
+                            "connector by rows",
+                            "connector length to be found",
+                            "corner",
+                            "curvature: material",
+                            "curvature: spatial",
+                            "damper",
+                            "damping by mass",
+                            "damping of strain",
+                            "damping of tension",
+                            "discontinuous slope",
+                            "element: constant weights",
+                            "element: material weights",
+                            "element: ones for weights",
+                            "element: papers' form",
+                            "element: papers' merge",
+                            "error control",
+                            "eyelet",
+                            "follows the section",
+                            "force of a program",
+                            "force per length",
+                            "fork",
+                            "friction: bearing",
+                            "friction: capstan",
+                            "friction: coulomb",
+                            "gravity",
+                            "guided",
+                            "hard stop",
+                            "hinge",
+                            "hinge with an axis",
+                            "initial velocity",
+                            "integrator: generalized-alpha",
+                            "integrator: radau",
+                            "integrator: rk4",
+                            "law: green",
+                            "law: hooke",
+                            "law: rows",
+                            "load over time",
+                            "load that moves",
+                            "load that turns with the beam",
+                            "mass at a place",
+                            "modes",
+                            "moment",
+                            "motion",
+                            "motion from an equilibrium",
+                            "moved support",
+                            "offset from the axis",
+                            "pinned",
+                            "pinned joint",
+                            "pipe bends",
+                            "plane",
+                            "point force",
+                            "prescribed place",
+                            "release",
+                            "rigid joint",
+                            "rigid track",
+                            "ring",
+                            "rod",
+                            "sliding body",
+                            "slope discontinuity of a rope",
+                            "space",
+                            "spring",
+                            "statics",
+                            "stop between bodies",
+                            "stress-free: as drawn",
+                            "stress-free: straight",
+                            "tension as drawn",
+                            "tension-only",
+                            "thermal expansion",
+                            "torque per length",
+                            "torsion",
+                            "unequal bending",
+                            "unstressed length",
+                            "viscous resistance",
+                            "wind"};
+  return all;
+}
+
+}  // namespace nurbeam
