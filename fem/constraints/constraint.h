@@ -2,6 +2,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "fem/constraints/body_on_body.h"
 #include "fem/constraints/corner_angle.h"
 #include "fem/constraints/held_position_of_body.h"
 #include "fem/constraints/joined_points.h"
@@ -26,7 +27,7 @@ template <int D, class... Others>
 using ConstraintList =
     std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
                  BodyOnGuide<D>, BodyOnNode<D>, KeptContact<D>, JoinedPoints<D>, JoinedSlopes<D>,
-                 CornerAngle<D>, KeptLength<D>, HeldPositionOfBody<D>, Others...>;
+                 CornerAngle<D>, KeptLength<D>, HeldPositionOfBody<D>, BodyOnBody<D>, Others...>;
 template <int D>
 using BoundConstraint =
     std::conditional_t<D == 3,

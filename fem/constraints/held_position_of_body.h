@@ -8,22 +8,25 @@
 
 namespace nurbeam {
 
-/// A body held at a point, r_body = r_drawn + load (position - r_drawn): D rows. The force on the body is
-/// minus its multipliers; for an eyelet it is the force on the beam that runs through it.
+/// A body held at a point or moved from there, r_body = r_drawn + load (position + d(t) - r_drawn): D rows.
+/// The force on the body is minus its multipliers; for an eyelet it is the force on the beam that runs
+/// through it.
 template <int D>
 class HeldPositionOfBody {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
+  /// `held` must outlive the constraint.
   HeldPositionOfBody(const MeshedBeams<D>& at, const HeldBody& held)
       : body_(held.body),
         drawn_(drawn_place(at.structure, Grip::on_body(held.body)).template head<D>()),
-        away_(held.position.template head<D>() - drawn_) {
+        away_(held.position.template head<D>() - drawn_),
+        motion_(held.motion ? &*held.motion : nullptr) {
     const int r = at.mesh.bodies[held.body];
     for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
   }
 
-  static constexpr ConstraintOffers offers{.linear = true, .on_body = true};
+  static constexpr ConstraintOffers offers{.linear = true, .rates = true, .on_body = true, .work = true};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
 
@@ -31,8 +34,23 @@ class HeldPositionOfBody {
                            const typename ConstraintTerms<D>::Multipliers*) const {
     ConstraintTerms<D> terms(rows, false);
     terms.value = state.q.segment<D>(dofs_[0]) - drawn_ - state.load * away_;
+    if (motion_) terms.value -= state.load * motion_->at(state.t).value.template head<D>();
     terms.gradient.template leftCols<D>().diagonal().setOnes();
     return terms;
+  }
+  /// Work between two states on one mesh [J]: the mean force over the displacement.
+  double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
+              const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
+    if (!motion_) return 0;
+    const Eigen::Vector3d moved = motion_->at(to.t).value - motion_->at(from.t).value;
+    return -(y_from + y_to).dot(moved.template head<D>()) / 2;
+  }
+  /// dg/dt [m/s] and d2g/dt2 [m/s^2] at fixed q.
+  Vector rate(double t) const {
+    return motion_ ? Vector(-motion_->at(t).rate.template head<D>()) : Vector::Zero();
+  }
+  Vector acceleration(double t) const {
+    return motion_ ? Vector(-motion_->at(t).acceleration.template head<D>()) : Vector::Zero();
   }
   /// The force on a body [N].
   Vector on_body(int body, const State&, const typename ConstraintTerms<D>::Multipliers& y) const {
@@ -42,6 +60,7 @@ class HeldPositionOfBody {
  private:
   int body_;
   Vector drawn_, away_;
+  const DisplacementTable* motion_;
   std::vector<int> dofs_;
 };
 

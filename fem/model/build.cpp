@@ -183,14 +183,28 @@ Rider& ModelBuilder::slide(int body, int beam, double s, double speed) {
 }
 
 Rider& ModelBuilder::lead_through(std::string name, const Eigen::Vector3d& position, int beam, double s) {
+  const int ring = add_ring(std::move(name), position);
+  add(HeldBody{ring, position});
+  return ring_on(ring, beam, s);
+}
+
+Rider& ModelBuilder::lead_through(std::string name, int body, int beam, double s) {
+  const int ring = add_ring(std::move(name), model_.bodies.at(body).position);
+  add(CarriedBody{ring, body});
+  return ring_on(ring, beam, s);
+}
+
+int ModelBuilder::add_ring(std::string name, const Eigen::Vector3d& position) {
+  model_.bodies.push_back({.name = std::move(name), .mass = 0, .position = position});
+  return static_cast<int>(model_.bodies.size()) - 1;
+}
+
+Rider& ModelBuilder::ring_on(int ring, int beam, double s) {
   if (checked_beam(beam).rigid)
     refuse("beam \"" + model_.beams[beam].name + "\" is a rigid guide: it runs through nothing");
-  model_.bodies.push_back({.name = std::move(name), .mass = 0, .position = position});
-  const int ring = static_cast<int>(model_.bodies.size()) - 1;
-  add(HeldBody{ring, position});
   Rider& rider = slide(ring, beam, s);
   rider.continuous_slope = false;
-  rider.rest = StaticPlace::free;
+  rider.rest = StaticPlace::free_or_held;
   return rider;
 }
 

@@ -58,6 +58,9 @@ class ModelBuilder {
   /// rider, so that its settings can be changed.
   Rider& lead_through(std::string name, const Eigen::Vector3d& position, int beam, double s);
 
+  /// Leads a beam through an eyelet on a body that no rider places: a pulley, where the body is.
+  Rider& lead_through(std::string name, int body, int beam, double s);
+
   /// Connects two ends with a connector as long as drawn; bodies must have their riders before. Returns the
   /// connector, so that its settings can be changed.
   Connector& connect(const Grip& from, const Grip& to, ConnectorType type, double stiffness = 0);
@@ -80,6 +83,8 @@ class ModelBuilder {
   double elastic_place(int beam, double s) const;
   const Beam& checked_beam(int i) const;
   int add_beam(Beam beam, Part part);
+  int add_ring(std::string name, const Eigen::Vector3d& position);
+  Rider& ring_on(int ring, int beam, double s);
 
   BeamModel model_;
   std::vector<Part> parts_;

@@ -29,7 +29,8 @@ enum class StaticPlace {
   automatic,  ///< in a static analysis the body slides to where it rests; before a motion it is held where it
               ///< is
   held,
-  free
+  free,
+  free_or_held  ///< free; held before a motion for which no rest is found with it free
 };
 
 /// A rider ties a body to a moving place on a beam.
@@ -51,6 +52,9 @@ struct Rider {
   StaticPlace rest = StaticPlace::automatic;
   std::optional<Friction> friction = {};
   bool as_point = false;  ///< carried as a point of a fixed mesh, at every place
+  /// I/r^2 of a pulley that turns as the beam runs over it: inertia against a change of the place [kg]
+  double turning_inertia = 0;
+  TimeTable drive_force = {};  ///< on the body towards greater s, from the beam [N]; empty: none
 
   bool is_offset() const { return follows_section && offset != Eigen::Vector2d::Zero(); }
   /// Whether a body carried as a node has coordinates besides those of the node: a constraint then ties both,

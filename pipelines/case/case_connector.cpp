@@ -95,14 +95,17 @@ void check_body(const CaseBody& body, const CaseFile& c, Findings& findings) {
   std::vector<const CaseSlidingJoint*> joints;
   for (const CaseSlidingJoint& joint : c.sliding_joints)
     if (joint.body == body.name) joints.push_back(&joint);
-  const bool connected =
-      std::any_of(c.connectors.begin(), c.connectors.end(), [&](const CaseConnector& connector) {
+  const bool connected = std::any_of(
+      c.connectors.begin(), c.connectors.end(),
+      [&](const CaseConnector& connector) {
         return connector.ends[0].body == body.name || connector.ends[1].body == body.name;
       });
-  if (joints.empty() && !connected)
+  const bool carries_eyelet =
+      std::ranges::any_of(c.eyelets, [&](const CaseEyelet& eyelet) { return eyelet.on == body.name; });
+  if (joints.empty() && !connected && !carries_eyelet)
     findings.error(body.path, "no sliding joint and no connector holds the body " + in_quotes(body.name) +
                                   "; add one to \"sliding_joints\" or \"connectors\", or remove the body");
-  else if (joints.empty() && !body.position)
+  else if (joints.empty() && !carries_eyelet && !body.position)
     findings.error(body.path, "the body " + in_quotes(body.name) +
                                   " slides on no beam, so that nothing says where it starts; give its "
                                   "\"position\"");

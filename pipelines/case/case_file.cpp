@@ -78,6 +78,17 @@ CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, F
   return joint;
 }
 
+// A body that is fastened to a beam slides on it and does not move along.
+void add_fastenings(CaseFile& file) {
+  for (const CaseBody& body : file.bodies)
+    if (!body.fastened_to.empty())
+      file.sliding_joints.push_back({.path = child(body.path, "fastened"),
+                                     .body = body.name,
+                                     .beam = body.fastened_to,
+                                     .at = body.fastened_at,
+                                     .motion = {.speed = 0}});
+}
+
 CaseEyelet read_eyelet(const Json& json, const std::string& path, Findings& findings) {
   CaseEyelet eyelet = read_item(eyelet_fields(), json, path, findings);
   if (eyelet.friction) check_friction(*eyelet.friction, json["friction"], child(path, "friction"), findings);
@@ -134,6 +145,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   read_all("stops", result.stops, read_stop);
   read_all("joints", result.joints, read_beam_joint);
   read_all("connectors", result.connectors, read_connector);
+  add_fastenings(result);
   result.laws = read_laws(json);
   result.analysis = read_analysis(part(json, "analysis"), findings);
   if (result.analysis.type == CaseAnalysis::Type::statics) {

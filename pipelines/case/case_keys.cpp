@@ -54,7 +54,7 @@ const Shape& case_keys() {
               {"loads", short_array(load_fields().shape()), "forces and moments"},
               {"supports", array(support_fields().shape()), "where beams are held"},
               {"sliding_joints", array(sliding_joint_fields().shape()), "which body slides on which beam"},
-              {"eyelets", array(eyelet_fields().shape()), "fixed rings that beams run through"},
+              {"eyelets", array(eyelet_fields().shape()), "rings and pulleys that beams run through"},
               {"stops", array(stop_fields().shape()), "what sliding bodies come up against"},
               {"joints", array(beam_joint_fields().shape()), "which beams are joined to each other"},
               {"connectors", short_array(connector_fields().shape()),

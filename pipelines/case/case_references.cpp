@@ -121,6 +121,12 @@ void check_references(const Json& json, Findings& findings) {
     check_references(json, json, "supports", "", "beam", *beams, findings);
     check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
     check_references(json, json, "eyelets", "", "beam", *beams, findings);
+    for_each_item(json, "bodies", "", [&](const Json& body, const std::string& path) {
+      const std::string name = text(part(body, "fastened"), "beam");
+      if (!name.empty() && !is_one_of(name, *beams) && !is_beam_of_chain(name, json))
+        findings.error(child(path, "fastened.beam"),
+                       "there is no beam " + in_quotes(name) + known_names(name, *beams));
+    });
     check_references(json, json, "stops", "", "beam", *beams, findings);
     for (const char* key : {"probes", "clearances"})
       check_references(json, part(json, "output"), key, "output", "beam", *beams, findings);
@@ -135,6 +141,11 @@ void check_references(const Json& json, Findings& findings) {
   }
   if (const auto bodies = names_under(json, "bodies")) {
     check_references(json, json, "sliding_joints", "", "body", *bodies, findings);
+    for_each_item(json, "eyelets", "", [&](const Json& eyelet, const std::string& path) {
+      const std::string name = text(eyelet, "on");
+      if (!name.empty() && !is_one_of(name, *bodies))
+        findings.error(child(path, "on"), "there is no body " + in_quotes(name) + known_names(name, *bodies));
+    });
     check_connector_ends(json, "body", *bodies, findings);
     for_each_item(json, "stops", "", [&](const Json& stop, const std::string& path) {
       for_each_item(stop, "bodies", path, [&](const Json& name, const std::string& name_path) {

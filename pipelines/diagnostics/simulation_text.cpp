@@ -62,13 +62,9 @@ std::string slope_hint(const BeamModel& model) {
              : "";
 }
 
+// Only the ring of an eyelet has no mass.
 bool is_eyelet(const BeamModel& model, int rider) {
-  return std::ranges::any_of(
-      model.constraints,
-      [&](const Constraint& constraint) {
-        const auto* held = std::get_if<HeldBody>(&constraint);
-        return held && held->body == model.riders[rider].body;
-      });
+  return model.body_of(model.riders[rider]).mass == 0;
 }
 
 // On a beam that deforms bodies that come near each other are as good as met.

@@ -80,8 +80,10 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
     if (body.position) forces.push_back(*body.position - origin);
     forces.push_back(body.velocity);
   }
-  for (const CaseEyelet& eyelet : resolved.eyelets)
+  for (const CaseEyelet& eyelet : resolved.eyelets) {
     if (eyelet.position) forces.push_back(*eyelet.position - origin);
+    for (const auto& [time, place] : eyelet.moves) forces.push_back(place - origin);
+  }
   for (const CaseLaw& law : resolved.laws)
     if (law.spatial)
       for (int d = 0; d < 3; ++d) forces.emplace_back(Eigen::Vector3d::Unit(d));

@@ -12,16 +12,10 @@ namespace nurbeam {
 
 namespace {
 
-int body_index(const ResolvedCase& resolved, const std::string& name) {
-  const auto found = std::find_if(resolved.bodies.begin(), resolved.bodies.end(),
-                                  [&](const CaseBody& body) { return body.name == name; });
-  return static_cast<int>(found - resolved.bodies.begin());
-}
-
 Grip end_of(const CaseConnectorEnd& from, const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
             const BeamModel& model, const ModelFrame& frame, Findings& findings) {
   if (from.point) return Grip::at_point(frame.to_local(*from.point));
-  if (!from.body.empty()) return Grip::on_body(body_index(resolved, from.body));
+  if (!from.body.empty()) return Grip::on_body(resolved.body_index(from.body));
   const int b = resolved.beam_index(from.beam);
   const double s = place_on(beams[b], from.at, from.path, findings);
   if (model.beams[b].rigid) return Grip::at_point(beams[b].curve.position(s));
@@ -84,12 +78,6 @@ std::vector<double> connector_places(const ResolvedCase& resolved, int b, const 
 
 void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                     const ModelFrame& frame, BeamModel& model, Findings& findings) {
-  for (std::size_t i = 0; i < resolved.bodies.size(); ++i) {
-    const CaseBody& body = resolved.bodies[i];
-    if (!body.position) continue;
-    model.bodies[i].position = frame.to_local(*body.position);
-    model.bodies[i].velocity = frame.direction_to_local(body.velocity);
-  }
   for (const CaseConnector& from : resolved.connectors) {
     Connector connector{.name = from.name,
                         .ends = {end_of(from.ends[0], resolved, beams, model, frame, findings),

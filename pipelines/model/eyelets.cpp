@@ -4,11 +4,14 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "fem/mesh/drawn_coordinates.h"
 #include "fem/motion/events/friction_modes.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/model/place_motions.h"
 
 namespace nurbeam {
 
@@ -33,11 +36,46 @@ void check_apart(const CaseEyelet& eyelet, const Rider& added, const BeamModel& 
 void check_place(const CaseEyelet& eyelet, double away, const CaseAnalysis& analysis, double length,
                  Findings& findings) {
   const bool as_drawn = analysis.type == CaseAnalysis::Type::dynamic && !analysis.start_from_equilibrium;
-  if (as_drawn && away > 1e-9 * length)
+  if (!as_drawn || away <= 1e-9 * length) return;
+  const std::string where = " m from where beam " + in_quotes(eyelet.beam) +
+                            " is drawn, but the run starts as drawn; ",
+                    cure = "start with \"initial\": \"equilibrium\"";
+  if (!eyelet.on.empty())
+    findings.error(eyelet.path + ".on", "is body " + in_quotes(eyelet.on) + ", which is " + text_of(away) +
+                                            where + cure + ", or put the body there");
+  else if (!eyelet.moves.empty())
+    findings.error(eyelet.path + ".path", "begins " + text_of(away) + where + cure + ", or begin there");
+  else
     findings.error(eyelet.path + ".position",
-                   "is " + text_of(away) + " m from where beam " + in_quotes(eyelet.beam) +
-                       " is drawn, but the run starts as drawn; start with \"initial\": \"equilibrium\", or "
-                       "leave the \"position\" out");
+                   "is " + text_of(away) + where + cure + ", or leave the \"position\" out");
+}
+
+// The place of an eyelet's ring over time, from its position on.
+std::optional<DisplacementTable> motion_of(const CaseEyelet& eyelet, const Eigen::Vector3d& position,
+                                           const ModelFrame& frame) {
+  if (eyelet.moves.empty()) return {};
+  std::vector<DisplacementTable::Row> rows;
+  for (const auto& [time, place] : eyelet.moves) rows.emplace_back(time, frame.to_local(place) - position);
+  return DisplacementTable(rows);
+}
+
+// Where an eyelet's ring is at the start: where it is put, its path begins, or its beam is drawn.
+Eigen::Vector3d start_of(const CaseEyelet& eyelet, const ModelFrame& frame, const Eigen::Vector3d& drawn) {
+  if (eyelet.position) return frame.to_local(*eyelet.position);
+  if (eyelet.moves.empty()) return drawn;
+  std::vector<DisplacementTable::Row> rows;
+  for (const auto& [time, place] : eyelet.moves) rows.emplace_back(time, frame.to_local(place));
+  return DisplacementTable(rows).at(0).value;
+}
+
+// A body that carries eyelets and slides nowhere is where the first of them is drawn, or where it is put.
+void place_carrier(const ResolvedCase& resolved, const Eigen::Vector3d& drawn, std::set<int>& placed,
+                   int carrier, BeamModel& model) {
+  const std::string& name = model.bodies[carrier].name;
+  const bool slides = std::ranges::any_of(resolved.sliding_joints,
+                                          [&](const CaseSlidingJoint& joint) { return joint.body == name; });
+  if (slides || resolved.bodies[carrier].position || !placed.insert(carrier).second) return;
+  model.bodies[carrier].position = drawn;
 }
 
 // A stick is as stiff as an element: what has no mass has no frequency to give it.
@@ -98,6 +136,7 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
   if (!resolved.eyelets.empty() && analysis.is_explicit())
     findings.error("analysis.integrator.type",
                    "is \"rk4\", which is not for eyelets; use \"generalized-alpha\" or \"radau\"");
+  std::set<int> placed;
   for (const CaseEyelet& eyelet : resolved.eyelets) {
     const int b = resolved.beam_index(eyelet.beam);
     if (model.beams[b].rigid) {
@@ -110,18 +149,34 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
                 .beam = b,
                 .s = place_on(beams[b], eyelet.at, eyelet.path, findings),
                 .motion = {},
+                .release = analysis.type == CaseAnalysis::Type::dynamic ? eyelet.release : std::nullopt,
                 .continuous_slope = eyelet.continuous_slope,
                 .leave_at_end = eyelet.leave_at_end,
                 .rest = eyelet.rest,
-                .friction = friction_of(eyelet, analysis, model.beams[b])};
+                .friction = friction_of(eyelet, analysis, model.beams[b]),
+                .turning_inertia = eyelet.inertia,
+                .drive_force = eyelet.force};
     stand_at_corner(beams[b], rider);
     check_wrap(eyelet, beams[b], rider, findings);
     const Eigen::Vector3d drawn = model.beams[b].curve.position(rider.s);
-    const Eigen::Vector3d position = eyelet.position ? frame.to_local(*eyelet.position) : drawn;
+    rider.motion = place_motion_of(eyelet.motion,
+                                   {.path = eyelet.path,
+                                    .beam = eyelet.beam,
+                                    .curve = &beams[b].curve,
+                                    .s = rider.s,
+                                    .from_start = true},
+                                   analysis.end_time, findings);
+    const int carrier = eyelet.on.empty() ? -1 : resolved.body_index(eyelet.on);
+    if (carrier >= 0) place_carrier(resolved, drawn, placed, carrier, model);
+    const Eigen::Vector3d position =
+        carrier >= 0 ? drawn_place(model, Grip::on_body(carrier)) : start_of(eyelet, frame, drawn);
     check_place(eyelet, (position - drawn).norm(), analysis, model.beams[b].curve.length(), findings);
     check_apart(eyelet, rider, model, findings);
     model.bodies.push_back({.name = eyelet.name, .mass = 0, .position = drawn});
-    model.constraints.push_back(HeldBody{rider.body, position});
+    if (carrier >= 0)
+      model.constraints.push_back(CarriedBody{rider.body, carrier});
+    else
+      model.constraints.push_back(HeldBody{rider.body, position, motion_of(eyelet, position, frame)});
     model.riders.push_back(rider);
   }
   for (std::size_t b = 0; b < beams.size(); ++b)

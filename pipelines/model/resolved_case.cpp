@@ -247,6 +247,12 @@ int ResolvedCase::beam_index(const std::string& name) const {
   return static_cast<int>(found - beams.begin());
 }
 
+int ResolvedCase::body_index(const std::string& name) const {
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const CaseBody& body) { return body.name == name; });
+  return static_cast<int>(found - bodies.begin());
+}
+
 int ResolvedCase::sliding_bodies(const std::string& name) const {
   const auto on_it = [&](const auto& rider) { return rider.beam == name; };
   return static_cast<int>(std::ranges::count_if(sliding_joints, on_it) +

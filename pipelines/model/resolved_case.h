@@ -32,6 +32,7 @@ struct ResolvedCase {
 
   /// The number of the beam of that name, which the case has.
   int beam_index(const std::string& name) const;
+  int body_index(const std::string& name) const;
   /// How many bodies and eyelets slide on the beam of that name.
   int sliding_bodies(const std::string& name) const;
 };

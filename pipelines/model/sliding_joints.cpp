@@ -5,64 +5,12 @@
 #include <string>
 
 #include "nurbs/number_text.h"
+#include "pipelines/model/place_motions.h"
 #include "pipelines/model/resolved_case.h"
 
 namespace nurbeam {
 
 namespace {
-
-constexpr double fastest_motion = 1e9;  // [m/s]
-
-// Speeds that jump are blows on the beam.
-void note_jumps(const CaseSlidingJoint& joint, const RowCurve& motion, Findings& findings) {
-  if (joint.motion_join != RowJoin::linear) return;
-  double largest = 0, at = 0;
-  for (const auto& [time, s] : motion.rows()) {
-    const auto [before, after] = *motion.slopes_at(time);
-    if (time <= 0 || std::abs(after - before) <= largest) continue;
-    largest = std::abs(after - before);
-    at = time;
-  }
-  if (largest > 0)
-    findings.add(Severity::note, joint.path + ".motion.interpolation",
-                 "\"linear\" makes the speed jump at the rows, by up to " + text_of(largest, 4) + " m/s at " +
-                     text_of(at, 6) +
-                     " s: each jump is a blow, and between the rows nothing accelerates the body");
-}
-
-// A prescribed motion begins where the body is, stays on the beam and goes from row to row in some time.
-void check_motion(const CaseSlidingJoint& joint, const RowCurve& motion, double s,
-                  const ReferenceCurve& curve, Findings& findings) {
-  const double L = curve.length(), start = motion.at(0).value;
-  if (std::abs(start - s) > same_place * L)
-    findings.error(joint.path + ".motion.table", "is at s = " + text_of(start) +
-                                                     " m at time 0, but \"at\" is s = " + text_of(s) +
-                                                     " m; it must start where \"at\" is");
-  for (std::size_t i = 0; i < joint.motion_table.size(); ++i) {
-    const double row = joint.motion_table[i].second;
-    if (i > 0) {
-      const auto& [time, from] = joint.motion_table[i - 1];
-      const double speed = (row - from) / (joint.motion_table[i].first - time);
-      if (!(std::abs(speed) <= fastest_motion))
-        findings.error(joint.path + ".motion.table[" + std::to_string(i) + "]",
-                       "is reached at " + text_of(speed, 3) + " m/s from the row before; must be at most " +
-                           text_of(fastest_motion) + " m/s: give it more time");
-    }
-    if (curve.closed()) continue;  // as often around as it says
-    if (!(row >= -same_place * L && row <= L * (1 + same_place)))
-      findings.error(joint.path + ".motion.table[" + std::to_string(i) + "]",
-                     text_of(row) + " m is not on beam \"" + joint.beam + "\", which is " + text_of(L) +
-                         " m long; must be between 0 and " + text_of(L) + " m");
-  }
-}
-
-// The motion at a constant speed from s, to the end of the beam or for twice as long as the analysis: with it
-// the body would stand still at its end.
-TimeTable steady_motion(double s, double speed, const ReferenceCurve& curve, double end_time) {
-  const double end = curve.closed() ? s + speed * 2 * end_time : speed > 0 ? curve.length() : 0;
-  if (speed == 0 || end == s) return {{0, s}, {1, s}};
-  return {{0, s}, {(end - s) / speed, end}};
-}
 
 // A discontinuous slope is a hinge that moves with the body. Where bending reaches further along the beam
 // than an element, sqrt(EI/T) > l, the beam resists the kink.
@@ -169,7 +117,7 @@ Eigen::Vector3d body_velocity(const Rider& joint, const BeamModel& model) {
 }
 
 bool says_speed(const CaseSlidingJoint& joint) {
-  return joint.speed || joint.motion_speed || !joint.motion_table.empty() || joint.release;
+  return joint.speed || joint.motion.is_given() || joint.release;
 }
 
 std::string velocity_text(const Eigen::Vector3d& local, const ModelFrame& frame) {
@@ -218,6 +166,9 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
   for (const CaseBody& body : resolved.bodies) {
     model.bodies.push_back({.name = body.name,
                             .mass = body.mass,
+                            .position = body.position ? frame.to_local(*body.position)
+                                                      : Eigen::Vector3d(Eigen::Vector3d::Zero()),
+                            .velocity = frame.direction_to_local(body.velocity),
                             .roll_inertia = body.roll_inertia,
                             .drag_area = body.drag_area});
     const bool follows =
@@ -256,15 +207,10 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
     check_release(joint, analysis, findings);
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)
       if (resolved.bodies[i].name == joint.body) added.body = static_cast<int>(i);
-    if (!joint.motion_table.empty()) {
-      added.motion = PlaceMotion(joint.motion_table, joint.motion_join,
-                                 curve.closed() ? RowCurve::unbounded : std::pair(0.0, curve.length()));
-      note_jumps(joint, *added.motion->rows(), findings);
-      check_motion(joint, *added.motion->rows(), added.s, curve, findings);
-      added.s = added.motion->at(0).s;
-    }
-    if (joint.motion_speed)
-      added.motion = steady_motion(added.s, *joint.motion_speed, curve, analysis.end_time);
+    added.motion =
+        place_motion_of(joint.motion, {.path = joint.path, .beam = joint.beam, .curve = &curve, .s = added.s},
+                        analysis.end_time, findings);
+    if (!joint.motion.table.empty()) added.s = added.motion->at(0).s;
     warn_of_stiff_hinge(joint, added, model, findings);
     warn_of_speed(joint, added, model, findings);
     if (joint.motion_law)

@@ -69,13 +69,23 @@ std::vector<Diagnostic> loose_body_notes(const CaseFile& case_file, const BeamMo
                                          const SimulationReport& run) {
   std::vector<Diagnostic> notes;
   for (const LooseBody& body : run.loose_bodies)
-    notes.push_back(
-        {Severity::note, case_file.path.string(),
-         "the start equilibrium holds body " + in_quotes(model.body_of(model.riders[body.rider]).name) +
-             " where it is drawn, with " + text_of(body.needed, 4) +
-             " N along the beam, but its friction can hold " + text_of(body.bound, 4) +
-             " N: it slides as the motion starts; \"equilibrium\": \"free\" starts it where friction can hold "
-             "it"});
+    if (const Rider& rider = model.riders[body.rider];
+        rider.rest == StaticPlace::free_or_held && body.bound == 0)
+      notes.push_back(
+          {Severity::note, case_file.path.string(),
+           "there is no rest with beam " + in_quotes(model.beam_of(rider).name) + " free to run through " +
+               in_quotes(model.body_of(rider).name) + ": the start holds it there, with " +
+               text_of(std::abs(body.needed), 4) +
+               " N along the beam, and lets it go as the motion starts, so that tensions jump; \"equilibrium\": "
+               "\"held\" says so, and \"release\" lets it go later"});
+    else
+      notes.push_back(
+          {Severity::note, case_file.path.string(),
+           "the start equilibrium holds body " + in_quotes(model.body_of(model.riders[body.rider]).name) +
+               " where it is drawn, with " + text_of(body.needed, 4) +
+               " N along the beam, but its friction can hold " + text_of(body.bound, 4) +
+               " N: it slides as the motion starts; \"equilibrium\": \"free\" starts it where friction can hold "
+               "it"});
   return notes;
 }
 

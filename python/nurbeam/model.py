@@ -351,8 +351,9 @@ class Model:
         equilibrium: str | None = None,
         **keys: Any,
     ) -> None:
-        """Runs a beam through a ring without mass and friction that is fixed in space: at `position` [m], or where the beam
-        is drawn. `equilibrium`: "held" keeps the place `at` in it until the motion starts, "free" finds its rest."""
+        """Runs a beam through a ring without mass: at `position` [m], or where the beam is drawn. `equilibrium`: "held"
+        keeps the place `at` in it until the motion starts, "free" finds its rest. `keys`: `on` (a body that carries it),
+        `path`, `inertia`, `motion`, `force`, `friction` and the others of the case file."""
         self.add("eyelets", name=name, beam=beam, at=at, position=position, equilibrium=equilibrium, **keys)
 
     def add_connector(

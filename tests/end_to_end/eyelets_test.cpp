@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "tests/end_to_end/case_run.h"
 
@@ -161,6 +163,133 @@ TEST(Eyelets, LetAnAtwoodsMachineFall) {
     EXPECT_NEAR(run.value(0, "end.z [m]") - run.value(row, "end.z [m]"),
                 (8 - 6) / (2 * rho) * (std::cosh(w * t) - 1), 1e-4)
         << t;
+  }
+}
+
+// Atwood's machine: a rope of 10.4 m and 2 kg/m over two eyelets, 8 and 6 kg at its ends, and the inertia of
+// turning pulleys. The heavier side falls by (dM/2 rho) (cosh w t - 1), w^2 = 2 rho g/(sum of masses). There
+// is no rest: the start holds the rope.
+std::string atwood(double inertia, const std::string& keys = "") {
+  const std::string J = R"(, "inertia": )" + std::to_string(inertia) + keys + " }";
+  return R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{ "name": "rope", "axis": { "polyline": [[0, 0, -5], [0, 0, 0], [0.4, 0, 0], [0.4, 0, -5]] },
+      "stress_free": "straight", "section": { "area": 1e-4, "second_moment": 5e-14 },
+      "material": { "density": 20000, "youngs_modulus": 2e11 }, "elements": { "max_length": 0.25 } }],
+    "bodies": [{ "name": "six", "mass": 6, "fastened": { "beam": "rope", "at": "start" } },
+               { "name": "eight", "mass": 8, "fastened": { "beam": "rope", "at": "end" } }],
+    "eyelets": [{ "name": "left", "beam": "rope", "at": { "length": 5 })" +
+         J + R"(, { "name": "right", "beam": "rope", "at": { "length": 5.4 })" + J + R"(],
+    "analysis": { "initial": "equilibrium", "end_time": 1.5, "step": 0.001 },
+    "output": { "report": false, "every": 0.5 } })";
+}
+TEST(Eyelets, TurnAsThePulleysOfAtwoodsMachine) {
+  for (const double inertia : {0.0, 2.0}) {
+    const CaseRun run = test::run_text(atwood(inertia));
+    ASSERT_EQ(run.code, 0) << run.messages;
+    const double rate = std::sqrt(2 * 2 * 9.81 / (14 + 20.8 + 2 * inertia));
+    for (const std::size_t row : {1U, 2U, 3U}) {
+      const double fall = 2 / (2.0 * 2) * (std::cosh(rate * 0.5 * static_cast<double>(row)) - 1);
+      // The rope stretches by 0.03 mm as it is let go.
+      EXPECT_NEAR(run.value(0, "eight.z [m]") - run.value(row, "eight.z [m]"), fall, 4e-5) << inertia;
+    }
+    EXPECT_TRUE(run.says(R"(there is no rest with beam "rope" free to run through "left")")) << run.messages;
+  }
+}
+
+TEST(Eyelets, LetTheBeamGoWhereTheyAreReleased) {
+  const CaseRun run = test::run_text(atwood(0, R"(, "equilibrium": "held", "release": 0.5)"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.value(1, "eight.z [m]"), run.value(0, "eight.z [m]"), 1e-9);
+  const double fall = 0.5 * (std::cosh(std::sqrt(4 * 9.81 / 34.8) * 0.5) - 1);
+  EXPECT_NEAR(run.value(1, "eight.z [m]") - run.value(2, "eight.z [m]"), fall, 4e-5);
+  EXPECT_FALSE(run.says("there is no rest"));
+}
+
+// A movable pulley of 12 kg between a ceiling and an eyelet, and 8 kg on the rope: a light rope's
+// acceleration is g (8 - 6)/(8 + 12/4 + J/4 + J'), with the inertia J of the pulley, over which the rope runs
+// half as fast, and J' of the eyelet's.
+TEST(Eyelets, AreMovablePulleysOnBodies) {
+  for (const double turning : {0.0, 1.0}) {
+    const std::string J = std::to_string(2 * turning), J_top = std::to_string(3 * turning);
+    const CaseRun run = test::run_text(R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+      "beams": [{ "name": "rope", "axis": { "polyline": [[0, 0, 0], [0.01, 0, -6], [0.02, 0, 0], [0.02, 0, -5]] },
+        "stress_free": "straight", "section": { "area": 1e-6, "second_moment": 1e-16 },
+        "material": { "density": 100, "youngs_modulus": 2e13 }, "elements": { "max_length": 0.25 } }],
+      "bodies": [{ "name": "pulley", "mass": 12 },
+                 { "name": "weight", "mass": 8, "fastened": { "beam": "rope", "at": "end" } }],
+      "supports": [{ "beam": "rope", "at": "start", "type": "pinned" }],
+      "eyelets": [{ "name": "block", "beam": "rope", "at": { "near": [0.01, 0, -6] }, "on": "pulley", "inertia": )" +
+                                       J + R"( },
+                  { "name": "top", "beam": "rope", "at": { "near": [0.02, 0, 0] }, "inertia": )" +
+                                       J_top + R"( }],
+      "analysis": { "initial": "equilibrium", "end_time": 0.5, "step": 0.001 },
+      "output": { "report": false, "every": 0.25 } })");
+    ASSERT_EQ(run.code, 0) << run.messages;
+    const double a = 9.81 * 2 / (11 + 3.5 * turning);
+    const double fall = run.value(0, "weight.z [m]") - run.last("weight.z [m]");
+    EXPECT_NEAR(fall, a * 0.125, 3e-4 * a * 0.125) << turning;
+    EXPECT_NEAR(run.last("pulley.z [m]") - run.value(0, "pulley.z [m]"), fall / 2, 1e-3 * fall);
+    EXPECT_NEAR(run.last("block.x [m]"), run.last("pulley.x [m]"), 1e-12);
+    EXPECT_NEAR(run.last("block.z [m]"), run.last("pulley.z [m]"), 1e-12);
+  }
+}
+
+// 10 kg on a light string over a capstan winch that lowers them by t^2/2; the tail is pulled with 50 N.
+std::string winch(const std::string& drive, double weight = 10) {
+  return R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
+    "beams": [{ "name": "string", "axis": { "polyline": [[0, 0, -5], [0, 0, 0], [4, 0, 0]] },
+      "stress_free": "straight", "section": { "area": 1e-5, "second_moment": 1e-16 },
+      "material": { "density": 10, "youngs_modulus": 1e11 }, "elements": { "max_length": 0.5 } }],
+    "bodies": [{ "name": "weight", "mass": )" +
+         std::to_string(weight) + R"(, "fastened": { "beam": "string", "at": "start" } }],
+    "supports": [{ "beam": "string", "at": "end", "type": "guided", "direction": [1, 0, 0], "force": 50 }],
+    "eyelets": [{ "name": "winch", "beam": "string", "at": { "length": 5 })" +
+         drive + R"( }],
+    "analysis": { "initial": "equilibrium", "end_time": 2, "step": 0.001 },
+    "output": { "report": false, "every": 0.5 } })";
+}
+TEST(Eyelets, DriveTheBeamAsAWinchDoes) {
+  const CaseRun run = test::run_text(winch(R"(, "motion": { "table": [[0, 0], [1, 0.5], [2, 2]] })"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("winch.s [m]"), 7, 1e-9);
+  EXPECT_NEAR(run.value(0, "weight.z [m]") - run.last("weight.z [m]"), 2, 2e-3);
+  // The tail pulls the beam towards its end, the weight towards its start with m (g - a).
+  EXPECT_NEAR(run.value(2, "winch.holding_force [N]"), 50 - 10 * (9.81 - 1), 0.5);
+  const CaseRun late = test::run_text(winch(R"(, "motion": { "table": [[0, 0.1], [1, 0.5]] })"));
+  EXPECT_EQ(late.code, 2);
+  EXPECT_TRUE(late.says("eyelets[0].motion.table: is 0.1 m at time 0")) << late.messages;
+}
+
+// The weight's 98.1 N against 50 N of the tail and 30 N of the winch's motor, with the inertia of its drum.
+TEST(Eyelets, DriveTheBeamWithAForceToo) {
+  const CaseRun run = test::run_text(winch(R"(, "force": -30, "inertia": 4, "equilibrium": "held")"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const double a = (98.1 - 50 - 30) / (10 + 4);
+  EXPECT_NEAR(run.last("winch.s [m]") - 5, a * 2, 2e-3 * a * 2);
+}
+
+// A ring takes the string along a path: the weight hangs on what is left of it, and nothing is lost.
+TEST(Eyelets, MoveAlongAPath) {
+  const CaseRun run = test::run_text(winch(R"(, "path": [[0, 0, 0, 0], [1, 1, 0, 0.5]])", 5.1));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  for (const std::size_t row : {2U, 3U, 4U}) {
+    EXPECT_NEAR(run.value(row, "winch.x [m]"), 1, 1e-12);
+    EXPECT_NEAR(run.value(row, "winch.z [m]"), 0.5, 1e-12);
+  }
+  EXPECT_NEAR(run.value(1, "winch.x [m]"), 0.5, 1e-3);
+  EXPECT_FALSE(run.says("energy")) << run.messages;
+}
+
+TEST(Eyelets, SayWhatCannotDriveOrCarryThem) {
+  for (const auto& [keys, complaint] :
+       {std::pair(R"(, "on": "nothing")", R"(eyelets[0].on: there is no body "nothing")"),
+        std::pair(R"(, "on": "weight", "position": [0, 0, 0])", "\"position\""),
+        std::pair(R"(, "motion": { "speed": 1 }, "force": 3)", "\"motion\""),
+        std::pair(R"(, "path": [[0, 0, 0, 0]], "on": "weight")", "\"path\""),
+        std::pair(R"(, "motion": { "table": [[0, 0], [1, 9]] })", "must be between -5 and 4 m")}) {
+    const CaseRun run = test::run_text(winch(keys));
+    EXPECT_EQ(run.code, 2) << keys;
+    EXPECT_TRUE(run.says(complaint)) << run.messages;
   }
 }
 

@@ -84,7 +84,7 @@ struct PointForGood {
   double time, s, energy;  ///< [s], [m], [J]
 };
 
-/// A body at rest that needs more force along its beam than its friction can hold.
+/// A body at rest that needs more force along its beam than its friction can hold; 0 without friction.
 struct LooseBody {
   int rider;
   double needed, bound;  ///< [N]
@@ -105,7 +105,8 @@ struct SimulationReport {
   /// Loading under which the model snaps through or buckles, in a search for rest.
   std::optional<Loading> snap;
   std::optional<LoosePart> loose;  ///< loose part of a mechanism, at the last rest
-  /// Bodies with friction that slide as soon as the motion starts from an equilibrium that holds them.
+  /// Bodies that slide as soon as the motion starts from an equilibrium that holds them: those with friction,
+  /// and those for which there was no rest.
   std::vector<LooseBody> loose_bodies;
   double motion_seconds = 0, length_control_seconds = 0;
   double energy_drift = 0;         ///< largest departure of the total energy from its start [J]

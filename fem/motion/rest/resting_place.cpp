@@ -362,9 +362,24 @@ std::vector<bool> sliding_at_rest(const BeamModel& model, StaticPlace otherwise)
   std::vector<bool> slides;
   for (const Rider& rider : model.riders) {
     const StaticPlace rest = rider.rest == StaticPlace::automatic ? otherwise : rider.rest;
-    slides.push_back(!rider.motion && rest == StaticPlace::free);
+    slides.push_back(!rider.motion && rest != StaticPlace::held);
   }
   return slides;
+}
+
+// Those of the sliding bodies that must not be held.
+std::vector<bool> firmly_sliding(const BeamModel& model, std::vector<bool> slides) {
+  for (std::size_t j = 0; j < slides.size(); ++j)
+    slides[j] = slides[j] && model.riders[j].rest != StaticPlace::free_or_held;
+  return slides;
+}
+
+RestReport start_with(MeshedState& at, const std::vector<bool>& slides, const LengthControl& control,
+                      const std::function<bool()>& interrupted) {
+  RestSearch search(at, control, interrupted);
+  search.watching_snaps();
+  const bool any = std::find(slides.begin(), slides.end(), true) != slides.end();
+  return any ? search.rest(slides) : search.held_start();
 }
 
 }  // namespace
@@ -376,10 +391,22 @@ RestReport find_held_equilibrium(MeshedState& at, const std::function<bool()>& i
 RestReport find_start(MeshedState& at, const LengthControl& control,
                       const std::function<bool()>& interrupted) {
   const std::vector<bool> slides = sliding_at_rest(at.system->model(), StaticPlace::held);
-  const bool any = std::find(slides.begin(), slides.end(), true) != slides.end();
-  RestSearch search(at, control, interrupted);
-  search.watching_snaps();
-  return any ? search.rest(slides) : search.held_start();
+  const std::vector<bool> firmly = firmly_sliding(at.system->model(), slides);
+  const MeshedState drawn = at;
+  RestReport report = start_with(at, slides, control, interrupted);
+  if (!report.failure || firmly == slides) return report;
+  at = drawn;
+  RestReport held = start_with(at, firmly, control, interrupted);
+  if (held.failure) {
+    at = drawn;
+    return report;
+  }
+  for (int j = 0; j < static_cast<int>(slides.size()); ++j)  // friction is judged where the motion starts
+    if (slides[j] && !firmly[j] && !at.system->model().riders[j].friction)
+      held.held_instead.push_back({j, holding_force(*at.system, at.state, j), 0});
+  held.load_steps += report.load_steps;
+  held.newton_iterations += report.newton_iterations;
+  return held;
 }
 
 RestReport find_rest(MeshedState& at, const LengthControl& control,

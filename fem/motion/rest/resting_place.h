@@ -1,8 +1,10 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "fem/motion/record/loaded_between.h"
+#include "fem/motion/record/simulation_report.h"
 #include "fem/motion/remesh/meshed_state.h"
 
 namespace nurbeam {
@@ -16,6 +18,9 @@ struct RestReport {
   bool freed = true;
   bool diverges = false;             ///< StaticReport::diverges of one of the equilibria
   std::optional<Loading> snap = {};  ///< loading under which the model snaps through or buckles on the way
+  /// Bodies that were to rest where they are free to slide, and are held, as there is no such rest; with the
+  /// forces that hold them.
+  std::vector<LooseBody> held_instead = {};
   long load_steps = 0, newton_iterations = 0;
   double length_control_seconds = 0;
 };
@@ -27,7 +32,8 @@ struct RestReport {
                                                const std::function<bool()>& interrupted = {});
 
 /// Brings a drawn model to the equilibrium in which its motion starts: sliding bodies are held where they
-/// are, except those that look for their resting place (StaticPlace).
+/// are, except those that look for their resting place (StaticPlace). Where they find none, those that may be
+/// held are.
 [[nodiscard]] RestReport find_start(MeshedState& at, const LengthControl& control,
                                     const std::function<bool()>& interrupted);
 

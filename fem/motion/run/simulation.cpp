@@ -247,7 +247,9 @@ struct Simulation::Implementation {
     if (!run_.goes_on(meeting_bodies(run_.at))) return false;
     if (run_.options.start_from_equilibrium) {
       if (!find_lengths()) return false;
-      if (!book(find_start(run_.at, run_.options.length_control, run_.observer.interrupted))) return false;
+      RestReport rest = find_start(run_.at, run_.options.length_control, run_.observer.interrupted);
+      run_.report.loose_bodies = std::move(rest.held_instead);
+      if (!book(std::move(rest))) return false;
       if (run_.observer.follower) run_.observer.follower->rests(run_.at);
       run_.change(&replan);
     }
@@ -256,7 +258,8 @@ struct Simulation::Implementation {
       std::optional<std::vector<LooseBody>> loose = start_memory(run_.at, run_.shortest_time());
       if (!loose || !start_contacts(run_.at, run_.shortest_time()))
         return run_.fail(Failure::Kind::mass_matrix);
-      if (run_.options.start_from_equilibrium) run_.report.loose_bodies = std::move(*loose);
+      if (run_.options.start_from_equilibrium)
+        run_.report.loose_bodies.insert(run_.report.loose_bodies.end(), loose->begin(), loose->end());
     }
     return run_.goes_on(excess_of_wrap(run_.at)) && pass_first_impacts(run_) && run_.restart();
   }

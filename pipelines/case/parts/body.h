@@ -9,6 +9,8 @@ struct CaseBody {
   double roll_inertia = 0;  ///< of one that follows a section [kg m^2]
   double drag_area = 0;     ///< C_d A [m^2]
   std::string path = {};
+  std::string fastened_to;                             ///< the beam to which it is fastened; empty: none
+  Place fastened_at = {};                              ///< where on it
   std::optional<Eigen::Vector3d> position = {};        ///< of one that no sliding joint places [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< likewise [m/s]
 };
@@ -30,6 +32,14 @@ inline Fields<CaseBody> body_fields() {
             "drag coefficient times area, of the drag of the `air`")
           .otherwise("0"),
       field(&B::position, "position", point(), "where a body without a sliding joint starts"),
+      field_by<B>(
+          "fastened",
+          object({{"beam", name(), "the beam", required}, {"at", place(), "which place of it", required}}),
+          "a weight that goes with a place of a beam, as at a rope's end",
+          [](const Json& json, const std::string&, B& body, Findings&) {
+            if (const Json* beam = value_under(json, "beam")) take(*beam, body.fastened_to);
+            if (const Json* at = value_under(json, "at")) take(*at, body.fastened_at);
+          }),
       field(&B::velocity, "velocity", vector(Dimension::speed, plausible(-1e9, 1e9)),
             "how fast it starts; at rest when omitted")
           .beside("position"),

@@ -1,6 +1,7 @@
 #pragma once
 #include "fem/structure/structure.h"
 #include "pipelines/case/parts/friction.h"
+#include "pipelines/case/parts/place_motion.h"
 #include "pipelines/case/parts/slope.h"
 #include "pipelines/case/parts/support.h"
 
@@ -10,10 +11,8 @@ struct CaseSlidingJoint {
   std::string path;
   std::string body, beam;
   Place at;
-  std::optional<double> speed;         ///< initial [m/s]
-  std::optional<double> motion_speed;  ///< prescribed ds/dt [m/s]
-  TimeTable motion_table;              ///< prescribed s(t) [m]; empty: none
-  RowJoin motion_join = RowJoin::smooth;
+  std::optional<double> speed;    ///< initial [m/s]
+  CasePlaceMotion motion;         ///< prescribed ds/dt [m/s] or s(t) [m]
   std::optional<double> release;  ///< held until then [s]
   SlopeRule slope = SlopeRule::automatic;
   bool leave_at_end = true;  ///< false: stop
@@ -28,15 +27,6 @@ struct CaseSlidingJoint {
 inline Fields<CaseSlidingJoint> sliding_joint_fields() {
   using namespace shapes;
   using J = CaseSlidingJoint;
-  const Shape motion = object(
-      {{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
-       {"table", table(Dimension::length),
-        "reference arc length over time, constant outside the rows; between them smooth, with a continuous "
-        "speed and acceleration"},
-       {"interpolation", choice({"smooth", "linear"}),
-        "between the rows of the table; linear: the speed jumps at each row; smooth when omitted", false,
-        "table"}},
-      {{{"speed", "table"}, required}});
   Fields<J> fields{
       {
           field(&J::body, "body", name(), "the sliding body").needed(),
@@ -46,13 +36,7 @@ inline Fields<CaseSlidingJoint> sliding_joint_fields() {
               &J::speed, "speed", quantity(Dimension::speed, plausible(-1e9, 1e9)),
               "initial speed in reference arc length; when omitted that of the body by its joint on another beam, "
               "else 0"),
-          field_by<J>("motion", motion, "prescribes the body's place, from `at` on",
-                      [](const Json& json, const std::string&, J& joint, Findings&) {
-                        if (const Json* speed = value_under(json, "speed")) take(*speed, joint.motion_speed);
-                        if (const Json* rows = value_under(json, "table")) take(*rows, joint.motion_table);
-                        if (const Json* join = value_under(json, "interpolation"))
-                          if (text_of_choice(*join) == "linear") joint.motion_join = RowJoin::linear;
-                      }),
+          place_motion_field(&J::motion, "reference arc length", "prescribes the body's place, from `at` on"),
           choice_field(
               &J::rest, "equilibrium", {{"held", StaticPlace::held}, {"free", StaticPlace::free}},
               "where statics find the body: held at its `at`, or free, where it rests; when omitted free in "

@@ -148,8 +148,8 @@ TEST_F(CaseFileTest, EveryKeyReachesItsField) {
   EXPECT_EQ(joint.speed, 2);
   EXPECT_EQ(joint.slope, SlopeRule::discontinuous);
   EXPECT_FALSE(joint.leave_at_end);
-  EXPECT_EQ(c.sliding_joints.at(1).motion_speed, 5);
-  EXPECT_EQ(c.sliding_joints.at(2).motion_table, (TimeTable{{0, 0}, {1, 0.05}}));
+  EXPECT_EQ(c.sliding_joints.at(1).motion.speed, 5);
+  EXPECT_EQ(c.sliding_joints.at(2).motion.table, (TimeTable{{0, 0}, {1, 0.05}}));
   EXPECT_TRUE(c.sliding_joints[2].leave_at_end);
   EXPECT_EQ(c.sliding_joints[2].slope, SlopeRule::automatic);
   EXPECT_TRUE(c.analysis.start_from_equilibrium);

@@ -1,0 +1,89 @@
+#include "pipelines/model/place_motions.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "nurbs/number_text.h"
+#include "pipelines/model/drawn_beam.h"
+
+namespace nurbeam {
+
+namespace {
+
+constexpr double fastest_motion = 1e9;  // [m/s]
+
+// Speeds that jump are blows on the beam.
+void note_jumps(const CasePlaceMotion& from, const MovedPlace& place, const RowCurve& motion,
+                Findings& findings) {
+  if (from.join != RowJoin::linear) return;
+  double largest = 0, at = 0;
+  for (const auto& [time, s] : motion.rows()) {
+    const auto [before, after] = *motion.slopes_at(time);
+    if (time <= 0 || std::abs(after - before) <= largest) continue;
+    largest = std::abs(after - before);
+    at = time;
+  }
+  if (largest > 0)
+    findings.add(Severity::note, place.path + ".motion.interpolation",
+                 "\"linear\" makes the speed jump at the rows, by up to " + text_of(largest, 4) + " m/s at " +
+                     text_of(at, 6) +
+                     " s: each jump is a blow, and between the rows nothing accelerates what moves");
+}
+
+// A prescribed motion begins where the place is, stays on the beam and goes from row to row in some time.
+void check_motion(const CasePlaceMotion& from, const MovedPlace& place, const RowCurve& motion,
+                  Findings& findings) {
+  const double L = place.curve->length(), start = motion.at(0).value;
+  const double origin = place.from_start ? place.s : 0;
+  if (std::abs(start - place.s) > same_place * L)
+    findings.error(
+        place.path + ".motion.table",
+        place.from_start
+            ? "is " + text_of(start - origin) + " m at time 0; it counts from the start, and must be 0 there"
+            : "is at s = " + text_of(start) + " m at time 0, but \"at\" is s = " + text_of(place.s) +
+                  " m; it must start where \"at\" is");
+  for (std::size_t i = 0; i < from.table.size(); ++i) {
+    const double row = from.table[i].second, s = origin + row;
+    const std::string path = place.path + ".motion.table[" + std::to_string(i) + "]";
+    if (i > 0) {
+      const auto& [time, before] = from.table[i - 1];
+      const double speed = (row - before) / (from.table[i].first - time);
+      if (!(std::abs(speed) <= fastest_motion))
+        findings.error(path, "is reached at " + text_of(speed, 3) +
+                                 " m/s from the row before; must be at most " + text_of(fastest_motion) +
+                                 " m/s: give it more time");
+    }
+    if (place.curve->closed()) continue;  // as often around as it says
+    if (!(s >= -same_place * L && s <= L * (1 + same_place)))
+      findings.error(path, text_of(row) + " m is not on beam \"" + place.beam + "\", which is " + text_of(L) +
+                               " m long; must be between " + text_of(-origin) + " and " +
+                               text_of(L - origin) + " m");
+  }
+}
+
+// The motion at a constant speed from s, to the end of the beam or for twice as long as the analysis: with it
+// the place would stand still at its end.
+TimeTable steady_motion(double s, double speed, const ReferenceCurve& curve, double end_time) {
+  const double end = curve.closed() ? s + speed * 2 * end_time : speed > 0 ? curve.length() : 0;
+  if (speed == 0 || end == s) return {{0, s}, {1, s}};
+  return {{0, s}, {(end - s) / speed, end}};
+}
+
+}  // namespace
+
+std::optional<PlaceMotion> place_motion_of(const CasePlaceMotion& motion, const MovedPlace& place,
+                                           double end_time, Findings& findings) {
+  if (motion.speed) return steady_motion(place.s, *motion.speed, *place.curve, end_time);
+  if (motion.table.empty()) return {};
+  TimeTable rows = motion.table;
+  if (place.from_start)
+    for (auto& [time, s] : rows) s += place.s;
+  PlaceMotion moved(std::move(rows), motion.join,
+                    place.curve->closed() ? RowCurve::unbounded : std::pair(0.0, place.curve->length()));
+  note_jumps(motion, place, *moved.rows(), findings);
+  check_motion(motion, place, *moved.rows(), findings);
+  return moved;
+}
+
+}  // namespace nurbeam
