@@ -63,9 +63,7 @@ std::string slope_hint(const BeamModel& model) {
 }
 
 // Only the ring of an eyelet has no mass.
-bool is_eyelet(const BeamModel& model, int rider) {
-  return model.body_of(model.riders[rider]).mass == 0;
-}
+bool is_eyelet(const BeamModel& model, int rider) { return model.body_of(model.riders[rider]).mass == 0; }
 
 // On a beam that deforms bodies that come near each other are as good as met.
 std::string meeting_text(const Failure& failure, const BeamModel& model) {

@@ -96,6 +96,8 @@ void add_rider(const Rider& rider, const Structure& structure, Named& named) {
   named.add("release", rider.release.has_value());
   named.add("follows the section", rider.follows_section);
   named.add("offset from the axis", rider.is_offset());
+  named.add("turning pulley", rider.turning_inertia > 0);
+  named.add("force that drives a pulley", !rider.drive_force.empty());
   if (rider.friction) add_friction(*rider.friction, named);
 }
 
@@ -131,7 +133,14 @@ void add_constraint(const Constraint& constraint, Named& named) {
                           named.add("pinned joint", !joint.rigid);
                           named.add("hinge with an axis", joint.axis.has_value());
                         },
-                        [&](const HeldBody&) { named.add("eyelet"); }},
+                        [&](const HeldBody& held) {
+                          named.add("eyelet");
+                          named.add("eyelet on a path", held.motion.has_value());
+                        },
+                        [&](const CarriedBody&) {
+                          named.add("eyelet");
+                          named.add("eyelet on a body");
+                        }},
              constraint);
 }
 
@@ -229,8 +238,11 @@ const Features& all_features() {
                             "element: papers' merge",
                             "error control",
                             "eyelet",
+                            "eyelet on a body",
+                            "eyelet on a path",
                             "follows the section",
                             "force of a program",
+                            "force that drives a pulley",
                             "force per length",
                             "fork",
                             "friction: bearing",
@@ -282,6 +294,7 @@ const Features& all_features() {
                             "thermal expansion",
                             "torque per length",
                             "torsion",
+                            "turning pulley",
                             "unequal bending",
                             "unstressed length",
                             "viscous resistance",

@@ -72,6 +72,7 @@ std::vector<VerifyProblem> mechanics_problems();
 std::vector<VerifyProblem> train_problems();
 std::vector<VerifyProblem> energy_problems();
 std::vector<VerifyProblem> rope_problems();
+std::vector<VerifyProblem> eyelet_problems();
 std::vector<VerifyProblem> rope_motion_problems();
 
 /// Runs the problems, as many at a time as there are processors, in their order; what is done so far is
