@@ -77,7 +77,7 @@ int compare_files(const std::filesystem::path& a, const std::filesystem::path& b
         << " (" << name_of(source, farthest.curve) << ")\n";
   }
   const bool same = largest <= tolerance;
-  out << "largest distance: " << distance_text(largest, size) << ", " << text_of(largest / size, 2)
+  out << "largest distance: " << distance_text(largest, size) << ", " << text_of(largest / size, 3)
       << " of the size\n"
       << (same ? "the curves are the same" : "the curves differ") << ": the tolerance is "
       << text_of(tolerance, 6) << " m"

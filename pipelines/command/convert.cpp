@@ -234,7 +234,8 @@ int convert_file(const std::filesystem::path& in, const std::filesystem::path& t
   const std::vector<Diagnostic> problems = export_curves(to, way.curves, unit);
   print_diagnostics(err, problems);
   if (has_errors(problems)) return exit_not_written;
-  out << to.string() << ": " << way.curves.size() << " curve(s), unit " << name_of(unit) << '\n';
+  out << to.string() << ": " << way.curves.size() << (way.curves.size() == 1 ? " curve" : " curves")
+      << ", unit " << name_of(unit) << '\n';
   return exit_done;
 }
 

@@ -786,6 +786,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "clearances",
                                                "compression",
                                                "force_over",
+                                               "force_per_projected_length",
                                                "interpolation",
                                                "law",
                                                "tangents",

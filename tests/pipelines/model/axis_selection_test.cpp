@@ -314,7 +314,7 @@ TEST(AxisSelection, InspectListsChainsAndJunctions) {
   const std::filesystem::path file = star(directory);
   std::ostringstream table, json, errors;
   EXPECT_EQ(inspect_files({file}, false, table, errors), 0);
-  EXPECT_NE(table.str().find("chains of curves: 4\n  3 m: curves 4 \"d\"\n"), std::string::npos)
+  EXPECT_NE(table.str().find("chains of curves: 4\n  3 m: curve 4 \"d\"\n"), std::string::npos)
       << table.str();
   EXPECT_NE(table.str().find("ends meet: 1\n  (0, 0, 0) m: curves 1 \"a\", 2 \"b\", 3 \"c\"\n"),
             std::string::npos)
