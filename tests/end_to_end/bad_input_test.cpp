@@ -303,6 +303,19 @@ TEST(HardInput, TwoBodiesThatSlideToTheSameRestingPlaceMeet) {
   expect_stopped(run, {"sliding bodies \"a\" and \"b\" are ", "give a stop between them"});
 }
 
+TEST(HardInput, ABodyThatComesToAnEyeletIsToldThatNothingPassesIt) {
+  const CaseRun run = test::run_text(R"({ "nurbeam": 1, "gravity": [0, 0, 0],
+    "beams": [{ "name": "wire", "axis": { "polyline": [[0, 0, 0], [4, 0, 0]] }, "section": { "radius": 0.01 },
+      "material": "steel", "elements": { "count": 8 } }],
+    "bodies": [{ "name": "bead", "mass": 1 }],
+    "supports": [{ "beam": "wire", "at": "start", "type": "pinned" },
+                 { "beam": "wire", "at": "end", "type": "guided", "direction": [1, 0, 0], "force": 1000 }],
+    "sliding_joints": [{ "body": "bead", "beam": "wire", "at": { "length": 0.6 }, "speed": 5 }],
+    "eyelets": [{ "name": "ring", "beam": "wire", "at": { "length": 2.3 } }],
+    "analysis": { "end_time": 1, "step": 0.002 }, "output": { "report": false } })");
+  expect_stopped(run, {"sliding body \"bead\" and eyelet \"ring\" are 0.0", "nothing passes an eyelet"});
+}
+
 TEST(HardInput, AStepAThousandTimesTooLargeSaysSo) {
   const std::vector<std::string> coarse = {"analysis.step=1", "output.every=1", "analysis.end_time=1",
                                            "beams[0].elements.count=16"};
