@@ -382,6 +382,19 @@ RestReport start_with(MeshedState& at, const std::vector<bool>& slides, const Le
   return any ? search.rest(slides) : search.held_start();
 }
 
+// The riders that may be held and are, with a force that does not come of round-off; friction is judged where
+// the motion starts.
+void add_held(const MeshedState& at, const std::vector<bool>& slides, RestReport& report) {
+  constexpr double much = 1e-3;  // of the force between body and beam
+  for (int j = 0; j < static_cast<int>(slides.size()); ++j) {
+    const Rider& rider = at.system->model().riders[j];
+    if (!slides[j] || rider.rest != StaticPlace::free_or_held || rider.friction) continue;
+    const double force = holding_force(*at.system, at.state, j);
+    if (std::abs(force) > much * joint_force(*at.system, at.state, j).norm())
+      report.held_instead.push_back({j, force, 0});
+  }
+}
+
 }  // namespace
 
 RestReport find_held_equilibrium(MeshedState& at, const std::function<bool()>& interrupted) {
@@ -394,19 +407,20 @@ RestReport find_start(MeshedState& at, const LengthControl& control,
   const std::vector<bool> firmly = firmly_sliding(at.system->model(), slides);
   const MeshedState drawn = at;
   RestReport report = start_with(at, slides, control, interrupted);
-  if (!report.failure || firmly == slides) return report;
-  at = drawn;
-  RestReport held = start_with(at, firmly, control, interrupted);
-  if (held.failure) {
+  if (report.failure && firmly != slides) {
     at = drawn;
+    RestReport held = start_with(at, firmly, control, interrupted);
+    held.load_steps += report.load_steps;
+    held.newton_iterations += report.newton_iterations;
+    if (held.failure)
+      at = drawn;
+    else
+      report = std::move(held);
+  } else if (report.freed) {
     return report;
   }
-  for (int j = 0; j < static_cast<int>(slides.size()); ++j)  // friction is judged where the motion starts
-    if (slides[j] && !firmly[j] && !at.system->model().riders[j].friction)
-      held.held_instead.push_back({j, holding_force(*at.system, at.state, j), 0});
-  held.load_steps += report.load_steps;
-  held.newton_iterations += report.newton_iterations;
-  return held;
+  if (!report.failure) add_held(at, slides, report);
+  return report;
 }
 
 RestReport find_rest(MeshedState& at, const LengthControl& control,
