@@ -84,7 +84,7 @@ TEST(MisleadingCases, AMovingHingeOnAStiffBarIsWarnedOfAndRefused) {
 // of a moving node is a force on it. The reference is a bead that slides over the motion of the bar alone (64
 // elements, tolerance 1e-6, Hermite in s and cubic splines in t), by Runge and Kutta: 2.040706 m.
 TEST(MisleadingCases, ALightBeadIsNotDraggedAboutByTheMesh) {
-  const CaseRun run = run_misleading_case("b7_ratio1e-06_continuous.json");
+  const CaseRun run = run_misleading_case("b7_ratio1e-06_continuous.json", {"analysis.tolerance=1e-5"});
   ASSERT_EQ(run.code, 0) << run.messages;
   EXPECT_NEAR(run.last("m.x [m]"), 2.040706, 1e-4);
   const CaseRun hinge = run_misleading_case("b7_ratio1e-06_discontinuous.json");
@@ -130,7 +130,7 @@ TEST(MisleadingCases, AHeavyBodyOnAWireMovesAsOnAString) {
 TEST(MisleadingCases, AHeavyBodyThatTheSlopeCannotCarryIsToldToKinkTheWire) {
   const CaseRun run = run_misleading_case("b7_ratio10000_continuous.json", {"beams[0].elements.count=8"});
   EXPECT_EQ(run.code, 3);
-  EXPECT_TRUE(run.says("for a cable that hardly resists bending give \"slope\": \"discontinuous\""))
+  EXPECT_TRUE(run.says("for a cable that hardly resists bending \"slope\": \"discontinuous\""))
       << run.messages;
 }
 

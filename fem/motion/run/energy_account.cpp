@@ -226,8 +226,8 @@ double energy_noise(const BeamModel& model) {
 }
 
 bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEvent& event,
-                    const SimulationReport& report) {
-  constexpr double most = 1e-3, round_off = 1e-10;
+                    const SimulationReport& report, double most) {
+  constexpr double round_off = 1e-10;
   const Beam& beam = model.beams[event.beam];
   if (beam.merge != MergeRule::standard || beam.properties.axial_strain == AxialStrain::pointwise)
     return false;

@@ -71,8 +71,9 @@ double slight_bending(const BeamModel& model);
 double energy_noise(const BeamModel& model);
 
 /// Whether the event of a change of the mesh changes the energy by too much. `now`: the present energy. Beams
-/// with the elements and rules of the papers, which are there for comparison, may change it.
+/// with the elements and rules of the papers, which are there for comparison, may change it. `most`: over
+/// what moves.
 bool changes_energy(const BeamModel& model, const SystemEnergy& now, const RunEvent& event,
-                    const SimulationReport& report);
+                    const SimulationReport& report, double most = 1e-3);
 
 }  // namespace nurbeam

@@ -52,7 +52,8 @@ struct Trial {
   const NextPlan& next;
   RunEvent event;
   std::optional<ChangedMesh> changed = {};
-  bool keeps_energy = false;
+  bool keeps_energy = false;  // to a thousandth of what moves
+  bool nearly_keeps = false;  // to a hundredth: the mesh is fine enough for a body without a node
 
   std::optional<double> cost() const {
     return changed ? std::optional(event.energy_after - event.energy_before) : std::nullopt;
@@ -68,7 +69,9 @@ Trial tried(const Run& run, const NextPlan& next) {
   sums = carried_sums(sums, *run.at.system, run.at.state, *changed->now.system, changed->now.state,
                       trial.event.beam);
   finish_event(sums, trial.event);
+  constexpr double nearly = 1e-2;
   trial.keeps_energy = !changes_energy(*run.model, sums.energy, trial.event, run.report);
+  trial.nearly_keeps = !changes_energy(*run.model, sums.energy, trial.event, run.report, nearly);
   return trial;
 }
 
@@ -88,13 +91,13 @@ bool accept(Run& run, Trial trial) {
   return true;
 }
 
-// Carries a body as a point for good where the change of the mesh that is due beside its node would cost
-// energy and cannot wait. Where that would cost energy too, or the body makes a kink, the run ends.
+// Carries a body as a point for good where the change of the mesh that is due beside its node would cost a
+// little energy and cannot wait. Where that would cost energy too, or the body makes a kink, the run ends.
 bool give_up_node(Run& run, const Trial& costly) {
   const int rider = costly.next.rider;
   const auto instead = point_for_good(*run.at.system, run.at.state, run.options.length_control, rider);
   std::optional<Trial> trial;
-  if (instead) trial.emplace(tried(run, *instead));
+  if (instead && costly.nearly_keeps) trial.emplace(tried(run, *instead));
   if (!trial || !trial->keeps_energy) {
     refuse(run, costly.next, costly.cost());
     return false;
