@@ -501,29 +501,6 @@ Eigen::VectorXd Assembly<D>::coordinate_scale() const {
 }
 
 template <int D>
-Eigen::VectorXd Assembly<D>::error_scale() const {
-  Eigen::VectorXd scale = coordinate_scale();
-  for (std::size_t b = 0; b < mesh_.nodes.size(); ++b) {
-    const int first = mesh_.first_span[b], count = mesh_.first_span[b + 1] - first;
-    const double length = model_->beams[b].curve.length();
-    const auto times = [&](int span) {  // the length of the beam over that of an element
-      const MeshSpan& s = mesh_.spans[first + (span + count) % count];
-      return length / (s.s_b - s.s_a);
-    };
-    const bool ring = model_->beams[b].is_ring();
-    const int last = static_cast<int>(mesh_.nodes[b].size()) - 1;
-    for (int i = 0; i <= last; ++i) {
-      const MeshNode& node = mesh_.nodes[b][i];
-      const double before = i > 0 || ring ? times(i - 1) : times(i),
-                   behind = i < last || ring ? times(i) : before;
-      for (const int slope : {node.slope_left, node.slope_right})
-        if (slope >= 0) scale.segment<D>(slope).setConstant(std::min(before, behind));
-    }
-  }
-  return scale;
-}
-
-template <int D>
 Eigen::VectorXd Assembly<D>::committed(const State& state) const {
   const MeshedBeams<D> at = beams();
   Eigen::VectorXd memory = state.memory;

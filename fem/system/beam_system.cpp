@@ -113,7 +113,6 @@ Eigen::VectorXd BeamSystem::constraint_curvature(const State& state) const {
 double BeamSystem::step_limit(const State& state) const { return system_->step_limit(state); }
 bool BeamSystem::admissible(const State& state) const { return system_->admissible(state); }
 Eigen::VectorXd BeamSystem::coordinate_scale() const { return system_->coordinate_scale(); }
-Eigen::VectorXd BeamSystem::error_scale() const { return system_->error_scale(); }
 Eigen::VectorXd BeamSystem::committed(const State& state) const { return system_->committed(state); }
 bool BeamSystem::forces_depend_on_multipliers() const { return system_->forces_depend_on_multipliers(); }
 bool BeamSystem::has_constant_inertia() const { return system_->has_constant_inertia(); }

@@ -67,7 +67,6 @@ class BeamSystem final : public SecondOrderSystem {
   double step_limit(const State& state) const override;
   bool admissible(const State& state) const override;
   Eigen::VectorXd coordinate_scale() const override;
-  Eigen::VectorXd error_scale() const override;
   Eigen::VectorXd committed(const State& state) const override;
   bool forces_depend_on_multipliers() const override;
   bool has_constant_inertia() const override;

@@ -90,7 +90,6 @@ GeneralizedAlphaIntegrator::GeneralizedAlphaIntegrator(GeneralizedAlpha settings
   algorithmic_acceleration_ = state_.a;
   jerk_ = Eigen::VectorXd::Zero(n);
   inverse_scale_ = system.coordinate_scale().cwiseInverse();
-  inverse_error_scale_ = system.error_scale().cwiseInverse();
   trial_ = state_;
   trial_algorithmic_ = state_.a;
   residual_.resize(n + m);
@@ -163,7 +162,7 @@ StepReport GeneralizedAlphaIntegrator::advance_within(double step, int max_halvi
     double shorter = 0.5;
     if (report.status == StepStatus::converged) {
       if (settles_) settle(h);
-      if (tolerance > 0) report.local_error = local_error(h);
+      report.local_error = local_error(h);
       if (tolerance == 0 || report.local_error <= tolerance) {
         report.step = h;
         if (tolerance > 0) report.next_step = next_step(h, tolerance, report);
@@ -374,28 +373,16 @@ void GeneralizedAlphaIntegrator::correct(double step) {
   trial_.lambda -= mass_scale_ * of_algorithmic * correction.tail(trial_.lambda.size());
 }
 
-/// The h^3 d3q/dt3 term of the method's own error in q over the error scale, with the derivative taken from
-/// alg. Four times what a filter by the matrix of the step leaves of it counts, where that is less.
-///
-/// The filter is (M' + beta h^2 K)^-1 M' with M' = (1 - alpha_m)/(1 - alpha_f) M: what swings much faster
-/// than the steps counts with how far it moves, not with its acceleration. M times the change of alg is that
-/// of the residual.
-double GeneralizedAlphaIntegrator::local_error(double step) {
-  const auto& [alpha_m, alpha_f, beta, gamma, position_error] = parameters_;
-  constexpr double of_filtered = 4;
-  with_start(0, state_.q.size(), [&](const auto& start) { moved_ = trial_algorithmic_ - start; });
-  const double unfiltered = step * step * largest(moved_.cwiseProduct(inverse_error_scale_));
-  moved_ += trial_.a;
-  std::swap(trial_.a, moved_);
-  evaluate_residual();
-  std::swap(trial_.a, moved_);
-  (void)scale_residual(step);
-  Eigen::VectorXd& change = residual_;
-  change.tail(trial_.lambda.size()).setZero();
-  solver_.solve(residual_, change);
-  const double filtered = (1 - alpha_m) / ((1 - alpha_f) * beta) *
-                          largest(change.head(trial_.q.size()).cwiseProduct(inverse_error_scale_));
-  return std::abs(position_error) * std::min(unfiltered, of_filtered * filtered);
+/// The h^3 d3q/dt3 term of the method's own error in q over the coordinate scale, with the derivative taken
+/// from alg.
+double GeneralizedAlphaIntegrator::local_error(double step) const {
+  const double greatest = largest_of_pieces(state_.q.size(), piece, [&](long first, long end) {
+    return with_start(first, end, [&](const auto& start) {
+      const auto moved = part(trial_algorithmic_, first, end) - start;
+      return largest(moved.cwiseProduct(part(inverse_scale_, first, end)));
+    });
+  });
+  return std::abs(parameters_.position_error) * step * step * greatest;
 }
 
 /// A proportional-integral controller for a local error of third degree; no growth right after a rejection.

@@ -111,7 +111,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   auto with_start(long first, long end, const Use& use) const;
   double find_correction();
   void correct(double step);
-  double local_error(double step);
+  double local_error(double step) const;
   double next_step(double step, double tolerance, const StepReport& report) const;
   bool alternates() const;
   void settle(double step);
@@ -146,8 +146,7 @@ class GeneralizedAlphaIntegrator final : public Integrator {
   Eigen::VectorXd residual_;  ///< (n+m) scaled; once solved for, the correction that answers it
   Eigen::VectorXd
       reference_;  ///< (n+m) inverse of the reference of the scaled residual, at the place of factorised_
-  Eigen::VectorXd inverse_scale_, inverse_error_scale_;  ///< (n) of the coordinates
-  Eigen::VectorXd moved_;                                ///< (n) work space of local_error()
+  Eigen::VectorXd inverse_scale_;         ///< (n) of the coordinates
   Eigen::VectorXd speeds_, last_speeds_;  ///< (m) G v + g_t of the trial state and of the last one
   Eigen::VectorXd earlier_, later_, smooth_speeds_, open_;  ///< (m) work space of settle()
   State beside_;                ///< work space: a state near the trial state, without a and memory

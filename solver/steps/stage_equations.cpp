@@ -24,7 +24,6 @@ StageEquations::StageEquations(const SecondOrderSystem& system, const State& sta
       n_(system.coordinate_count()),
       m_(system.constraint_count()),
       inverse_scale_(system.coordinate_scale().cwiseInverse()),
-      inverse_error_scale_(system.error_scale().cwiseInverse()),
       mass_(system.tangent_pattern().matrix()),
       damping_(mass_),
       stiffness_(mass_),
@@ -144,7 +143,7 @@ double StageEquations::filtered(const Eigen::VectorXd& of_q) const {
   Eigen::VectorXd x = mass_ * padded + radau_method().gamma * h_ * (damping_ * padded);
   x.tail(m_).setZero();
   real_solver_.solve(x, x);
-  const auto error = x.head(n_).cwiseProduct(inverse_error_scale_);
+  const auto error = x.head(n_).cwiseProduct(inverse_scale_);
   return all_finite(error) ? error.lpNorm<Eigen::Infinity>() : not_a_number;
 }
 

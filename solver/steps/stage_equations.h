@@ -64,9 +64,9 @@ class StageEquations {
   const SecondOrderSystem* system_;
   Eigen::Index n_, m_;
   double mass_scale_ = 1, h_ = 0;
-  Eigen::VectorXd inverse_scale_, inverse_error_scale_;  // (n) of the coordinates
-  Eigen::VectorXd reference_;                            // (n+m) inverse of the reference
-  std::vector<int> of_constraints_;                      // indices of the values of G and dF/dlambda
+  Eigen::VectorXd inverse_scale_;    // (n) of the coordinates
+  Eigen::VectorXd reference_;        // (n+m) inverse of the reference
+  std::vector<int> of_constraints_;  // indices of the values of G and dF/dlambda
   Eigen::SparseMatrix<double> mass_, damping_, stiffness_, real_;
   Eigen::SparseMatrix<std::complex<double>> complex_;
   KktSolver real_solver_;

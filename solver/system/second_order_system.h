@@ -119,10 +119,8 @@ class SecondOrderSystem {
   /// Whether the configuration is possible (no element turned inside out); an integrator shortens its step
   /// rather than accept an inadmissible state.
   virtual bool admissible(const State&) const { return true; }
-  /// (n) a typical size of each coordinate, > 0.
+  /// (n) a typical size of each coordinate, > 0, for error control.
   virtual Eigen::VectorXd coordinate_scale() const { return Eigen::VectorXd::Ones(coordinate_count()); }
-  /// (n) the change of each coordinate, > 0, that moves the system by its size: the unit of local errors.
-  virtual Eigen::VectorXd error_scale() const { return coordinate_scale(); }
 };
 
 }  // namespace nurbeam

@@ -93,7 +93,7 @@ const std::string swing = R"({ "nurbeam": 1, "gravity": [0, 0, -10],
   "analysis": { "end_time": 1, "step": 1e-3 }, "output": { "report": false } })";
 
 TEST(Extremes, OfAMotionAreThoseOfAllStepsAndNotOfStoredRows) {
-  for (const char* step : {"analysis.step=1e-3", R"(analysis={"end_time": 1, "tolerance": 1e-5})"}) {
+  for (const char* step : {"analysis.step=1e-3", "analysis.step=null"}) {
     const RunOf each = extremes_of(swing, {step, "output.every=1e-3"}),
                 few = extremes_of(swing, {step, "output.every=1"});
     ASSERT_EQ(few.run.rows.size(), 2u);

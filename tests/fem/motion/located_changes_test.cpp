@@ -21,7 +21,7 @@ std::vector<RunEvent> changes(double tolerance) {
 }
 
 TEST(LocatedChanges, OfTheMeshComeWhenTheyFallDueWhateverTheSteps) {
-  const std::vector<RunEvent> coarse = changes(2e-4), fine = changes(1e-6);
+  const std::vector<RunEvent> coarse = changes(1e-3), fine = changes(1e-6);
   ASSERT_GE(coarse.size(), 3u);
   ASSERT_EQ(coarse.size(), fine.size());
   for (std::size_t i = 0; i < fine.size(); ++i) {
