@@ -16,12 +16,12 @@ constexpr double g = 9.81, EA = 2e7;
 
 // A rope through `points`, straight when free, of `mass` kg/m, with what else a case has.
 std::string rope_case(const std::string& points, double mass, const std::string& more, double end_time) {
-  constexpr double area = 1e-6;
+  constexpr double area = 1e-4;
   return R"({ "nurbeam": 1, "beams": [{ "name": "rope", "axis": { "polyline": [)" + points +
-         R"(] }, "stress_free": "straight", "section": { "area": 1e-6, "second_moment": 1e-18 },
+         R"(] }, "stress_free": "straight", "section": { "area": 1e-4, "second_moment": 1e-18 },
       "material": { "density": )" +
          text_of(mass / area) + R"(, "youngs_modulus": )" + text_of(EA / area) +
-         R"( }, "elements": { "max_length": 0.25 } }], )" + more +
+         R"(, "stiffness_damping": 1e-3 }, "elements": { "max_length": 0.25 } }], )" + more +
          R"(, "analysis": { "initial": "equilibrium", "end_time": )" + text_of(end_time) +
          R"(, "step": 1e-3 }, "output": { "every": 0.5 } })";
 }

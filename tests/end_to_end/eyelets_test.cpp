@@ -239,7 +239,8 @@ std::string winch(const std::string& drive, double weight = 10) {
   return R"({ "nurbeam": 1, "gravity": [0, 0, -9.81],
     "beams": [{ "name": "string", "axis": { "polyline": [[0, 0, -5], [0, 0, 0], [4, 0, 0]] },
       "stress_free": "straight", "section": { "area": 1e-5, "second_moment": 1e-16 },
-      "material": { "density": 10, "youngs_modulus": 1e11 }, "elements": { "max_length": 0.5 } }],
+      "material": { "density": 10, "youngs_modulus": 1e11, "stiffness_damping": 1e-3 },
+      "elements": { "max_length": 0.5 } }],
     "bodies": [{ "name": "weight", "mass": )" +
          std::to_string(weight) + R"(, "fastened": { "beam": "string", "at": "start" } }],
     "supports": [{ "beam": "string", "at": "end", "type": "guided", "direction": [1, 0, 0], "force": 50 }],

@@ -25,6 +25,17 @@ class Groups {
   std::vector<int> first_;
 };
 
+// The eyelets of one beam: between them it is taut, and one that moves alone strains it.
+void join_rings(const BeamModel& model, Groups& groups) {
+  std::vector<int> first(model.beams.size(), -1);
+  for (const Rider& rider : model.riders) {
+    if (model.body_of(rider).mass > 0) continue;
+    int& ring = first[rider.beam];
+    if (ring < 0) ring = rider.body;
+    groups.join(ring, rider.body);
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::vector<bool>& slides) {
@@ -34,6 +45,7 @@ std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::
       groups.join(connector.ends[0].body, connector.ends[1].body);
   for (const Stop& stop : model.stops)
     if (stop.other >= 0) groups.join(model.riders[stop.rider].body, model.riders[stop.other].body);
+  join_rings(model, groups);
   std::vector<std::vector<int>> members(model.bodies.size());
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j)
     members[groups.of(model.riders[j].body)].push_back(j);

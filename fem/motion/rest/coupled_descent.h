@@ -9,7 +9,7 @@
 namespace nurbeam {
 
 /// Groups of at least two riders, one of which `slides`. Their bodies are coupled by connectors (also over
-/// bodies that hang between), by stops, or by a body of two riders.
+/// bodies that hang between), by stops, by a body of two riders, or as eyelets of one beam.
 std::vector<std::vector<int>> coupled_joints(const BeamModel& model, const std::vector<bool>& slides);
 
 /// (riders x riders) H_ij = d F_i / d s_j of the forces along the beam that hold riders at their places, with
