@@ -73,9 +73,9 @@ std::vector<Diagnostic> loose_body_notes(const CaseFile& case_file, const BeamMo
         rider.rest == StaticPlace::free_or_held && body.bound == 0)
       notes.push_back(
           {Severity::note, case_file.path.string(),
-           "there is no rest with beam " + in_quotes(model.beam_of(rider).name) + " free to run through " +
-               in_quotes(model.body_of(rider).name) + ": the start holds it there, with " +
-               text_of(std::abs(body.needed), 4) +
+           "there is no rest near the drawing with beam " + in_quotes(model.beam_of(rider).name) +
+               " free to run through " + in_quotes(model.body_of(rider).name) +
+               ": the start holds it there, with " + text_of(std::abs(body.needed), 4) +
                " N along the beam, and lets it go as the motion starts, so that tensions jump; \"equilibrium\": "
                "\"held\" says so, and \"release\" lets it go later"});
     else

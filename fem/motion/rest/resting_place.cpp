@@ -382,6 +382,19 @@ RestReport start_with(MeshedState& at, const std::vector<bool>& slides, const Le
   return any ? search.rest(slides) : search.held_start();
 }
 
+// Whether a rider that may be held has run to a rest far from its drawn place.
+bool is_far(const MeshedState& at, const std::vector<bool>& slides) {
+  constexpr double far = 0.1;  // of the beam
+  for (int j = 0; j < static_cast<int>(slides.size()); ++j) {
+    const Rider& rider = at.system->model().riders[j];
+    if (!slides[j] || rider.rest != StaticPlace::free_or_held) continue;
+    const ReferenceCurve& curve = at.system->model().beam_of(rider).curve;
+    const auto s = place(*at.system, at.state, j);
+    if (!s || std::abs(curve.unrolled(*s, rider.s) - rider.s) > far * curve.length()) return true;
+  }
+  return false;
+}
+
 // The riders that may be held and are, with a force that does not come of round-off; friction is judged where
 // the motion starts.
 void add_held(const MeshedState& at, const std::vector<bool>& slides, RestReport& report) {
@@ -407,7 +420,7 @@ RestReport find_start(MeshedState& at, const LengthControl& control,
   const std::vector<bool> firmly = firmly_sliding(at.system->model(), slides);
   const MeshedState drawn = at;
   RestReport report = start_with(at, slides, control, interrupted);
-  if (report.failure && firmly != slides) {
+  if (firmly != slides && !report.interrupted && (report.failure || is_far(at, slides))) {
     at = drawn;
     RestReport held = start_with(at, firmly, control, interrupted);
     held.load_steps += report.load_steps;
