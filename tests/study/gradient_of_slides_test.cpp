@@ -17,7 +17,9 @@ TEST(Gradient, OfASlidingBodyBeforeAnyEvent) {
     "quantities": [{"name": "s", "value": "at(end, slider.s)"}, {"name": "v", "value": "max(slider.speed)"},
       {"name": "z", "value": "at(end, slider.z)"}],
     "plan": {"grid": 2})json");
-  expect_gradient(of, 0.01, 1e-5);
+  // The derivative of the greatest speed has 1e-5 of round-off: a drawn curve is differentiated by
+  // differences.
+  expect_gradient(of, 0.01, 2e-5);
 }
 
 // When it would arrive changes with the curve and the speed, but the run ends before.

@@ -20,8 +20,9 @@ using Vector = Eigen::VectorXd;
 constexpr double resolution = 1e-3, coarse_resolution = 1e-2;
 constexpr double near_no_load = 0.02;
 constexpr int few_load_steps = 12, most_load_steps = 400;  // of one equilibrium, and of all in between
-/// What the search may cost, in Newton iterations: this many times what the answer has cost, but always some.
-constexpr int times_the_answer = 2, always = 100;
+/// What the search may cost, in Newton iterations: this many times what the answer has cost, but always as
+/// many as solve for so many unknowns, a fraction of a second.
+constexpr int times_the_answer = 2, always_solved = 300'000;
 
 // Coordinates that add up to the angles of sections about the axis. A round section may turn freely in its
 // place, and nothing else depends on these.
@@ -50,7 +51,7 @@ class SnapSearch {
         scale_(system.coordinate_scale()),
         turning_(turning_coordinates(system.mesh())),
         first_(from.load > 0 ? 0 : near_no_load),
-        iterations_left_(std::max(always, times_the_answer * cost)) {}
+        iterations_left_(std::max(always_solved / system.coordinate_count(), times_the_answer * cost)) {}
 
   // The part of the way from `from` (0) to `to` (1) at which the branch ends; nothing where it does not.
   std::optional<double> run(const State& from, const State& to) {

@@ -15,7 +15,7 @@ void check_carried_body() {
   ModelBuilder builder(D);
   const int free_body = builder.add_body("free", 1, {0, 0, 0});
   const int carrier = builder.add_body("carrier", 2, of_carrier);
-  const int ring = builder.add_body("ring", 0, drawn);
+  const int ring = builder.add_body("ring", 1, drawn);
   builder.add(Constraint(CarriedBody{.body = ring, .carrier = carrier}));
   const BeamSystem system(builder.build());
   const auto carries = the_constraint<D, BodyOnBody<D>>(system);
