@@ -99,9 +99,8 @@ Eigen::Vector4d displacements_at_samples(const ElementRecord& element) {
   Eigen::Vector4d sizes;
   for (int i = 0; i < 4; ++i) {
     const double u = i / 3.0, v = 1 - u;
-    const Eigen::Vector4d parts =
-        Eigen::Vector4d(v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u)
-            .cwiseProduct(element.control_points.row(3).transpose());
+    const Eigen::Vector4d parts = Eigen::Vector4d(v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u)
+                                      .cwiseProduct(element.control_points.row(3).transpose());
     sizes[i] = (displacements_of(element) * parts).norm() / parts.sum();
   }
   return sizes;
@@ -240,7 +239,8 @@ void for_each_frame(const ReportFrames& frames, Use use) {
   }
 }
 
-/// The frames of modes with the state at rest, frame 0, for a drawing: displacements are then those of shapes.
+/// The frames of modes with the state at rest, frame 0, for a drawing: displacements are then those of
+/// shapes.
 ReportFrames from_the_state(const ReportFrames& frames) {
   ReportFrames shapes = frames;
   shapes.read = [read = frames.read, state = frames.read(0, 1)[0]](std::size_t first, std::size_t count) {

@@ -18,8 +18,7 @@ std::map<std::string, double> round_off(const BeamModel& model, const Simulation
     modulus = std::max(modulus, beam.material.youngs_modulus);
     strain_energy += EA * L;
   }
-  for (const Body& body : model.bodies)
-    stiffness = std::max(stiffness, body.mass * model.gravity.norm());
+  for (const Body& body : model.bodies) stiffness = std::max(stiffness, body.mass * model.gravity.norm());
   const bool is_motion = std::isfinite(run.strain_energy.least);
   return {{"m", of_places * size},
           {"m/s", of_places * size},

@@ -443,8 +443,7 @@ StaticReport find_static_equilibrium(const StaticEquilibrium& settings, const Se
   const bool is_stable = stable.has_answer() || !any.has_answer();
   state = is_stable ? stable.state() : any.state();
   StaticReport answer = is_stable ? found : diverging;
-  answer.newton_iterations =
-      report.newton_iterations + diverging.newton_iterations + found.newton_iterations;
+  answer.newton_iterations = report.newton_iterations + diverging.newton_iterations + found.newton_iterations;
   return answer;
 }
 

@@ -192,7 +192,8 @@ TEST(Eyelets, TurnAsThePulleysOfAtwoodsMachine) {
       // The rope stretches by 0.03 mm as it is let go.
       EXPECT_NEAR(run.value(0, "eight.z [m]") - run.value(row, "eight.z [m]"), fall, 4e-5) << inertia;
     }
-    EXPECT_TRUE(run.says(R"(there is no rest near the drawing with beam "rope" free to run through "left")")) << run.messages;
+    EXPECT_TRUE(run.says(R"(there is no rest near the drawing with beam "rope" free to run through "left")"))
+        << run.messages;
   }
 }
 

@@ -145,11 +145,13 @@ WaveResolution wave_resolution(const MeshedState& at, const Mode& mode) {
   const BeamModel& model = at.system->model();
   const Mesh& mesh = at.system->mesh();
   std::vector<std::array<double, 3>> sums(model.beams.size());  // of d^2, d_s^2 and d_ss^2
-  for_each_displacement(at, mode, [&](const DisplacedPoint& point) {
-    sums[point.beam][0] += point.ds * point.d.squaredNorm();
-    sums[point.beam][1] += point.ds * point.d_s.squaredNorm();
-    sums[point.beam][2] += point.ds * point.d_ss.squaredNorm();
-  });
+  for_each_displacement(
+      at, mode,
+      [&](const DisplacedPoint& point) {
+        sums[point.beam][0] += point.ds * point.d.squaredNorm();
+        sums[point.beam][1] += point.ds * point.d_s.squaredNorm();
+        sums[point.beam][2] += point.ds * point.d_ss.squaredNorm();
+      });
   const auto mean_square = [&](std::size_t b) { return sums[b][0] / model.beams[b].curve.length(); };
   double largest = 0;
   for (std::size_t b = 0; b < sums.size(); ++b) largest = std::max(largest, mean_square(b));

@@ -21,9 +21,9 @@ BendingWave bending_wave(const MeshedState& at, const Mode& mode);
 
 /// How well the elements of a beam follow the waves of a mode.
 struct WaveResolution {
-  int beam = -1;         ///< the beam that follows them worst of those that move much; -1: none moves in waves
-  int elements = 0;      ///< of the beam
-  double half_wave = 0;  ///< pi (int |d_s|^2 ds/int |d_ss|^2 ds)^(1/2), d the displacement [m]
+  int beam = -1;     ///< the beam that follows them worst of those that move much; -1: none moves in waves
+  int elements = 0;  ///< of the beam
+  double half_wave = 0;      ///< pi (int |d_s|^2 ds/int |d_ss|^2 ds)^(1/2), d the displacement [m]
   double per_half_wave = 0;  ///< elements a half wave
 };
 WaveResolution wave_resolution(const MeshedState& at, const Mode& mode);
