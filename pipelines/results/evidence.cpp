@@ -69,7 +69,8 @@ std::vector<FeatureEvidence> evidence_for(const std::set<std::string>& features,
   constexpr std::size_t most = 3;
   std::vector<FeatureEvidence> all;
   for (const std::string& feature : features) {
-    FeatureEvidence& evidence = all.emplace_back(feature);
+    FeatureEvidence& evidence = all.emplace_back();
+    evidence.feature = feature;
     for (const VerifiedProblem& problem : verified)
       if (problem.features.contains(feature)) evidence.problems.push_back(problem);
     const auto rank = [&](const VerifiedProblem& problem) {

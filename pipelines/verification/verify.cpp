@@ -171,7 +171,8 @@ std::vector<VerifiedProblem> verified(const std::vector<VerifyProblem>& problems
                                       const std::vector<VerifyResult>& results) {
   std::vector<VerifiedProblem> all;
   for (std::size_t p = 0; p < problems.size(); ++p) {
-    VerifiedProblem& problem = all.emplace_back(problems[p].name);
+    VerifiedProblem& problem = all.emplace_back();
+    problem.name = problems[p].name;
     problem.features = results[p].features;
     problem.least = std::numeric_limits<double>::infinity();
     for (const VerifyRow& row : results[p].rows) {
