@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fem/motion/events/crossing.h"
@@ -421,18 +422,18 @@ RestReport find_start(MeshedState& at, const LengthControl& control,
   const MeshedState drawn = at;
   RestReport report = start_with(at, slides, control, interrupted);
   if (firmly != slides && !report.interrupted && (report.failure || is_far(at, slides))) {
-    at = drawn;
+    const MeshedState found = std::exchange(at, drawn);
     RestReport held = start_with(at, firmly, control, interrupted);
     held.load_steps += report.load_steps;
     held.newton_iterations += report.newton_iterations;
     if (held.failure)
-      at = drawn;
+      at = found;
     else
       report = std::move(held);
   } else if (report.freed) {
     return report;
   }
-  if (!report.failure) add_held(at, slides, report);
+  if (!report.failure && !report.interrupted) add_held(at, slides, report);
   return report;
 }
 
