@@ -80,7 +80,7 @@ def findings_of(plain: Iterable[tuple[str, str, str]]) -> list[Finding]:
 def tell(findings: Iterable[Finding]) -> None:
     """Gives the warnings among the findings to Python's, of the line that has called this module."""
     frame, level = sys._getframe(), 1
-    while frame.f_back is not None and frame.f_globals["__name__"].startswith(f"{__package__}."):
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith(f"{__package__}."):
         frame, level = frame.f_back, level + 1
     for finding in findings:
         if finding.severity == "warning":
