@@ -21,6 +21,7 @@
 #include "pipelines/report/report.h"
 #include "pipelines/results/export_results.h"
 #include "pipelines/run/run.h"
+#include "pipelines/run/run_messages.h"
 #include "pipelines/run/signals.h"
 
 namespace nurbeam {
@@ -37,30 +38,44 @@ int inspect_command(const Arguments& arguments, Streams streams) {
                        streams.out, streams.err);
 }
 
-/// The case with its overrides; its diagnostics are printed.
-std::optional<CaseFile> read_case(const Arguments& arguments, Streams streams) {
+/// The case with its overrides; its diagnostics are told.
+std::optional<CaseFile> read_case(const Arguments& arguments, RunMessages& messages) {
   CaseFileReport report = read_case_file(arguments.positional[0], arguments.values("--set"));
-  print_diagnostics(streams.err, report.diagnostics);
+  messages.findings(report.diagnostics);
   return std::move(report.value);
 }
 
 int check_command(const Arguments& arguments, Streams streams) {
-  const auto case_file = read_case(arguments, streams);
+  RunMessages messages(streams.err, RunMessages::Form::text);
+  const auto case_file = read_case(arguments, messages);
   return case_file ? check_case(*case_file, streams.out, streams.err) : exit_bad_input;
+}
+
+bool progress_is_json(const Arguments& arguments) {
+  const std::string form = arguments.value("--progress", "text");
+  if (form != "text" && form != "json")
+    throw UsageError("--progress: there is no " + in_quotes(form) + known_names(form, {"text", "json"}));
+  return form == "json";
 }
 
 int run_command(const Arguments& arguments, Streams streams) {
   if (arguments.value("--out", "results").empty())
     throw UsageError("--out: is empty; give the directory for the results");
   const int threads = whole_number(arguments, "--threads", 0, 1, 1024);
+  const bool json = progress_is_json(arguments);
   const BrokenPipeGuard guard;  // a run outlives the reader of its messages
-  const auto case_file = read_case(arguments, streams);
-  if (!case_file) return exit_bad_input;
+  RunMessages messages(streams.err, json ? RunMessages::Form::json : RunMessages::Form::text);
+  const auto case_file = read_case(arguments, messages);
+  if (!case_file) {
+    messages.end(exit_bad_input, arguments.value("--out", ""));
+    return exit_bad_input;
+  }
   const std::string default_out = case_file->path.stem().string() + "_results";
   return run_case(*case_file, {.out = arguments.value("--out", default_out),
                                .quiet = arguments.has("--quiet"),
                                .resume = arguments.has("--resume"),
-                               .threads = threads});
+                               .threads = threads,
+                               .json = json});
 }
 
 std::pair<double, std::vector<NamedCurve>> read_results(const std::filesystem::path& directory, double time,
@@ -188,18 +203,20 @@ Command check_entry() {
 }
 
 Command run_entry() {
-  return {"run",
-          "CASE.json",
-          "runs a case",
-          1,
-          1,
-          {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
-           {"--resume", "", "goes on from the restart point in that directory"},
-           {"--quiet", "", "no progress"},
-           {"--threads", "N", "the most threads that share a long beam; otherwise one a core"},
-           set_option()},
-          run_command,
-          exit_not_written};
+  return {
+      "run",
+      "CASE.json",
+      "runs a case",
+      1,
+      1,
+      {{"--out", "DIR", "the directory for the results; otherwise CASE_results"},
+       {"--resume", "", "goes on from the restart point in that directory"},
+       {"--quiet", "", "no progress"},
+       {"--progress", "text|json", "json: progress and findings as one JSON object a line; otherwise text"},
+       {"--threads", "N", "the most threads that share a long beam; otherwise one a core"},
+       set_option()},
+      run_command,
+      exit_not_written};
 }
 
 Command export_entry() {

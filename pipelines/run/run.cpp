@@ -33,6 +33,7 @@
 #include "pipelines/run/progress.h"
 #include "pipelines/run/round_off.h"
 #include "pipelines/run/run_evidence.h"
+#include "pipelines/run/run_messages.h"
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/run/simulation_plan.h"
@@ -93,11 +94,12 @@ Checkpoint find_checkpoint(const std::filesystem::path& directory, const std::st
 // The run itself, once everything it needs is there.
 class Run {
  public:
-  Run(const CaseFile& c, const BuildReport& report, const RunOptions& options, RunSummary summary)
+  Run(const CaseFile& c, const BuildReport& report, const RunOptions& options, RunMessages& messages,
+      RunSummary summary)
       : case_(c),
         built_(*report.value),
         options_(options),
-        messages_(options.messages ? *options.messages : std::cerr),
+        messages_(messages),
         directory_(options.out),
         inputs_(digest_of_inputs(c, built_)),
         summary_(std::move(summary)) {
@@ -114,6 +116,7 @@ class Run {
     RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
     const SimulationReport simulated =
         case_.analysis.has_modes() ? find_modes_into(outputs) : simulate_into(outputs);
+    messages_.begin("results");
     outputs.finish();
     // A run that ended before its first frame has nothing to show.
     const bool with_report = case_.output.report && outputs.frame_count() > 0;
@@ -124,7 +127,7 @@ class Run {
       frames ? write_report(options_.out, *frames) : write_report(options_.out);
     }
     if (simulated.status != SimulationStatus::done && !thrown_)
-      tell(case_.path.string() + ": error: " + outcome_in_world(simulated, built_));
+      tell_failure(outcome_in_world(simulated, built_));
     if (simulated.status == SimulationStatus::done) tell_outcome(simulated, with_report);
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
     if (thrown_) std::rethrow_exception(thrown_);
@@ -134,8 +137,13 @@ class Run {
  private:
   // A line for people, and for the log.
   void tell(const std::string& line) {
-    messages_ << line << "\n";
+    messages_.text(line);
     *log_ << line << std::endl;
+  }
+
+  void tell_failure(const std::string& outcome) {
+    messages_.failure(case_.path, outcome);
+    *log_ << case_.path.string() << ": error: " << outcome << std::endl;
   }
 
   void tell_outcome(const SimulationReport& simulated, bool with_report) {
@@ -159,6 +167,7 @@ class Run {
   }
 
   SimulationReport find_modes_into(RunOutputs& outputs) {
+    messages_.begin("modes");
     ModeTable table;
     const ModeShapes shapes{
         .state = [&](const Snapshot& state) { outputs.write(state); },
@@ -173,7 +182,7 @@ class Run {
          {round_off_warning(case_.path, built_.model, table), coarse_waves_warning(case_.path, table),
           short_waves_warning(case_.path, table)}) {
       if (!warning) continue;
-      print_diagnostics(messages_, {*warning});
+      messages_.findings({*warning});
       print_diagnostics(*log_, {*warning});
       summary_.diagnostics.push_back(*warning);
     }
@@ -182,16 +191,21 @@ class Run {
   }
 
   SimulationReport simulate_into(RunOutputs& outputs) {
-    const double start_time = from_ ? from_->state.t : 0;
-    Progress shown(messages_,
-                   options_.progress ? Progress::Style::quiet : Progress::style_of_stderr(options_.quiet),
-                   start_time, case_.analysis.end_time);
-    Progress logged(*log_, Progress::Style::lines, start_time, case_.analysis.end_time);
+    const double start_time = from_ ? from_->state.t : 0, end_time = case_.analysis.end_time;
+    const bool moves = case_.analysis.type == CaseAnalysis::Type::dynamic;
+    const double states_at_rest =
+        std::max(1.0, static_cast<double>(simulation_options(case_).output_times.size()));
+    const bool silent = options_.quiet || options_.progress || messages_.is_json();
+    messages_.begin(moves && (from_ || !simulation_options(case_).start_from_equilibrium) ? "motion"
+                                                                                          : "equilibrium");
+    Progress shown(messages_.stream(), Progress::style_of_stderr(silent), start_time, end_time);
+    Progress logged(*log_, Progress::Style::lines, start_time, end_time);
     SimulationObserver observer;
     observer.interrupted = interruption();
     observer.progress = [&](const StepRecord& step) {
       shown.update(step);
       logged.update(step);
+      messages_.reach(step.time / end_time, step.time);
       if (options_.progress) options_.progress(step);
     };
     if (outputs.takes_elements_ahead())
@@ -200,9 +214,11 @@ class Run {
         if (std::exchange(first, false)) give_back_memory();
         outputs.write_ahead(time, beam, elements);
       };
-    observer.snapshot = [&, first = true](Snapshot snapshot) mutable {
+    observer.snapshot = [&, first = true, count = 0](Snapshot snapshot) mutable {
+      if (!moves) messages_.reach(++count / states_at_rest, snapshot.time);
       outputs.write(std::move(snapshot));
       if (!std::exchange(first, false)) return;
+      if (moves) messages_.begin("motion");
       shown.begin_motion();
       logged.begin_motion();
     };
@@ -248,7 +264,7 @@ class Run {
     summary_.wall_times.motion = simulated.motion_seconds;
     summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
                                 outputs.diagnostics().end());
-    print_diagnostics(messages_, outputs.diagnostics());
+    messages_.findings(outputs.diagnostics());
     print_diagnostics(*log_, outputs.diagnostics());
     summary_.wall_times.length_control = simulated.length_control_seconds;
     if (from_) summary_.resumed_at = from_->state.t;
@@ -273,7 +289,7 @@ class Run {
     std::vector<Diagnostic> warnings = run_warnings(case_, built_, simulated, outputs.checks());
     if (summary_.modes)
       if (const auto note = fewer_modes_note(case_, *summary_.modes)) warnings.push_back(*note);
-    print_diagnostics(messages_, warnings);
+    messages_.findings(warnings);
     print_diagnostics(*log_, warnings);
     summary_.diagnostics.insert(summary_.diagnostics.end(), warnings.begin(), warnings.end());
     summary_.files = directory_.files();
@@ -287,7 +303,7 @@ class Run {
   const CaseFile& case_;
   const BuiltModel& built_;
   const RunOptions& options_;
-  std::ostream& messages_;
+  RunMessages& messages_;
   ResultsDirectory directory_;
   std::string inputs_;
   RunSummary summary_;
@@ -298,24 +314,10 @@ class Run {
 
 }  // namespace
 
-int run_case(const CaseFile& c, const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  std::ostream& messages = options.messages ? *options.messages : std::cerr;
-  if (options.resume && !std::filesystem::exists(restart_file(options.out))) {
-    messages << "error: " << restart_file(options.out).string()
-             << ": does not exist: there is no run to resume; run without --resume\n";
-    return exit_bad_input;
-  }
-  BuildReport report = build_model(c);
-  if (report.value)
-    for (Diagnostic& found : divide_for_motion(c, *report.value, options.interrupted))
-      report.diagnostics.push_back(std::move(found));
-  print_diagnostics(messages, report.diagnostics);
-  if (!report.value) return exit_bad_input;
-  return run_model(c, report, options, seconds_since(start) - report.value->import_seconds);
-}
+namespace {
 
-int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& options, double build_seconds) {
+int run_built(const CaseFile& c, const BuildReport& report, const RunOptions& options, RunMessages& messages,
+              double build_seconds) {
   RunSummary summary;
   summary.version = NURBEAM_VERSION;
   summary.case_name = c.name;
@@ -324,7 +326,6 @@ int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& op
   summary.diagnostics = report.diagnostics;
   summary.wall_times.import = report.value->import_seconds;
   summary.wall_times.model = build_seconds;
-  std::ostream& messages = options.messages ? *options.messages : std::cerr;
   std::optional<ThreadLimit> limit;
   if (options.threads > 0) limit.emplace(options.threads);
   try {
@@ -334,20 +335,61 @@ int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& op
     std::vector<std::filesystem::path> inputs = c.files;
     if (in_file) inputs.insert(inputs.begin(), std::filesystem::absolute(c.path));
     if (const std::string taken = taken_by_input(options.out, inputs); !taken.empty()) {
-      messages << "error: " << taken << "\n";
+      messages.error(taken);
       return exit_bad_input;
     }
-    return Run(c, report, options, std::move(summary)).play();
+    return Run(c, report, options, messages, std::move(summary)).play();
   } catch (const UnusableCheckpoint& problem) {
-    messages << "error: " << problem.what() << "\n";
+    messages.error(problem.what());
     return exit_bad_input;
   } catch (const DamagedError& problem) {
-    messages << "error: " << problem.what() << ": run without --resume\n";
+    messages.error(std::string(problem.what()) + ": run without --resume");
     return exit_bad_input;
   } catch (const std::runtime_error& problem) {
-    messages << "error: " << problem.what() << "\n";
+    messages.error(problem.what());
     return exit_not_written;
   }
+}
+
+int build_and_run(const CaseFile& c, const RunOptions& options, RunMessages& messages) {
+  const auto start = std::chrono::steady_clock::now();
+  if (options.resume && !std::filesystem::exists(restart_file(options.out))) {
+    messages.error(restart_file(options.out).string() +
+                   ": does not exist: there is no run to resume; run without --resume");
+    return exit_bad_input;
+  }
+  messages.begin("model");
+  BuildReport report = build_model(c);
+  if (report.value)
+    for (Diagnostic& found : divide_for_motion(c, *report.value, options.interrupted))
+      report.diagnostics.push_back(std::move(found));
+  messages.findings(report.diagnostics);
+  if (!report.value) return exit_bad_input;
+  return run_built(c, report, options, messages, seconds_since(start) - report.value->import_seconds);
+}
+
+std::ostream& stream_of(const RunOptions& options) {
+  return options.messages ? *options.messages : std::cerr;
+}
+
+RunMessages::Form form_of(const RunOptions& options) {
+  return options.json ? RunMessages::Form::json : RunMessages::Form::text;
+}
+
+}  // namespace
+
+int run_case(const CaseFile& c, const RunOptions& options) {
+  RunMessages messages(stream_of(options), form_of(options));
+  const int code = build_and_run(c, options, messages);
+  messages.end(code, options.out);
+  return code;
+}
+
+int run_model(const CaseFile& c, const BuildReport& report, const RunOptions& options, double build_seconds) {
+  RunMessages messages(stream_of(options), form_of(options));
+  const int code = run_built(c, report, options, messages, build_seconds);
+  messages.end(code, options.out);
+  return code;
 }
 
 }  // namespace nurbeam

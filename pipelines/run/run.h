@@ -18,6 +18,7 @@ struct RunOptions {
   std::function<bool()> interrupted = nullptr;
   std::function<void(const StepRecord&)> progress = nullptr;  ///< told every step, instead of the lines
   std::ostream* messages = nullptr;                           ///< stderr where null
+  bool json = false;  ///< messages and progress as one JSON object a line (run_messages.h)
 };
 
 /// Runs a case and writes its results directory. Returns the exit code: 0 done, 2 bad input (a CAD file), 3

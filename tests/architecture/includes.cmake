@@ -35,7 +35,7 @@ set(homes
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/algebra/sparse_lu\\.cpp"
   "Spectra/.*"                                                                    "solver/algebra/eigenpairs\\.cpp"
   "pybind11/.*"                                                                   "python/.*"
-  "nlohmann/.*"                                                                   "(cad_import/json/.*\\.cpp|pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/model_digest\\.cpp|results/(checked_json|run_summary)\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h))"
+  "nlohmann/.*"                                                                   "(cad_import/json/.*\\.cpp|pipelines/(case/.*|command/inspect\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/(model_digest|run_messages)\\.cpp|results/(checked_json|run_summary)\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h))"
   "openturns/.*"                                                                  "pipelines/study/openturns_study\\.h"
   "mpi\\.h"                                                                       "pipelines/study/mpi_engine\\.cpp"
   "iconv\\.h"                                                                       "cad_import/files/code_page\\.cpp"
