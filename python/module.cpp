@@ -1,6 +1,7 @@
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "python/bindings.h"
 #include "python/interpreter_lock.h"
+#include "python/routes.h"
 
 namespace nurbeam::python {
 
@@ -21,6 +22,7 @@ PYBIND11_MODULE(_core, module) {
   nurbeam::python::bind_cad_files(module);
   nurbeam::python::bind_cases(module);
   nurbeam::python::bind_recordings(module);
+  nurbeam::python::bind_routes(module);
   nurbeam::python::bind_simulations(module);
   nurbeam::python::bind_systems(module);
 }

@@ -14,6 +14,7 @@
 #include "pipelines/command/curves_schema.h"
 #include "pipelines/command/inspect.h"
 #include "pipelines/command/manual.h"
+#include "pipelines/command/route.h"
 #include "pipelines/command/study.h"
 #include "pipelines/command/verify.h"
 #include "pipelines/diagnostics/closest_name.h"
@@ -240,6 +241,22 @@ Command export_entry() {
       exit_not_written};
 }
 
+Command route_entry() {
+  return {"route",
+          "CABLES.json",
+          "finds the shape in which cables of a given length, slack or bend radius hang between two places",
+          1,
+          1,
+          {{"--to", "FILE", "the curves, in STEP, IGES, DXF, BREP, JSON or SVG by its ending"},
+           {"--unit", "mm|m|inch", "of that file; otherwise mm"},
+           {"--solid", "RADIUS", "solids instead of curves, in STEP or BREP"},
+           {"--json", "", "what the cables have come to, as JSON"},
+           {"--time-limit", "TIME", "for the equilibrium of one cable; otherwise 3 s"},
+           {"--tolerance", "N", "error of positions over the length; otherwise 1e-5"}},
+          route_command,
+          exit_not_written};
+}
+
 Command compare_entry() {
   return {"compare",
           "A B",
@@ -327,6 +344,7 @@ const std::vector<Command>& commands() {
                                              convert_entry(),
                                              transform_entry(),
                                              compare_entry(),
+                                             route_entry(),
                                              schema_entry(),
                                              report_entry(),
                                              verify_entry(become_verify),

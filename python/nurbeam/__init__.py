@@ -22,6 +22,7 @@ from .errors import CadError, CaseError, CaseWarning, Error, Finding
 from .loads import Load
 from .model import Beam, Body, Circle, IBeam, Material, Model, Pipe, Rectangle, Rope, Section, load, schema
 from .results import BeamShape, ConnectorPull, Extreme, Histories, Mode, Motion, Results, RunError, Snapshot
+from .routing import Route, route, routes
 from .signals import Signal
 from .simulation import Checkpoint, Simulation
 from .study import Study, study, vary
@@ -31,6 +32,7 @@ __all__ = [
     "Model", "load", "Circle", "Pipe", "Rectangle", "IBeam", "Rope", "Section", "Material", "Beam", "Body", "Load", "schema",
     "Curve", "Curves", "ClosestPoint", "read", "write",
     "Results", "Extreme", "Histories", "Snapshot", "BeamShape", "Motion", "ConnectorPull", "Mode",
+    "route", "routes", "Route",
     "Simulation", "Checkpoint", "Signal", "System", "study", "Study", "vary",
     "Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding",
 ]  # fmt: skip
