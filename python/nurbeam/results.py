@@ -194,9 +194,10 @@ class BeamShape:
         """(elements, 4, 4): homogeneous control points (w x, w y, w z, w) of each element's rational cubic [m]."""
         return self._frame.control_points(self._index, 1)
 
-    def exaggerated(self, factor: float) -> Curve:
-        """The axis with displacements from the drawing times `factor`: 1 gives `curve`, 0 the drawing."""
-        return Curve._of(self._frame.curve(self._index, False, factor), self.name)
+    def exaggerated(self, factor: float, material: bool = False) -> Curve:
+        """The axis with displacements from the drawing times `factor`: 1 gives `curve`, 0 the drawing; with `material` its
+        parameter is that of `material_curve`."""
+        return Curve._of(self._frame.curve(self._index, material, factor), self.name)
 
     @property
     def s(self) -> Array:
