@@ -1,0 +1,85 @@
+"""Supports, forces, sections and material of a FEM analysis."""
+
+import FreeCAD
+
+from .. import objects
+from ..geometry import places
+from ..geometry.edges import edge_of_nurbs
+
+
+def fem_analyses(document):
+    return [obj for obj in document.Objects if obj.TypeId == "Fem::FemAnalysis"]
+
+
+def take_over(fem, analysis):
+    """Makes beams, supports and loads in an analysis by a FEM analysis: (objects made, notes on what was left out)."""
+    made, notes = [], []
+    material = next((o for o in fem.Group if isinstance(getattr(o, "Material", None), dict)), None)
+    for section in (o for o in fem.Group if _kind(o) == "Fem::ElementGeometry1D"):
+        made += _beams_of(section, material, analysis, notes)
+    beams = objects.members(analysis, objects.Beam)
+    analysis.Document.recompute()
+    for constraint in fem.Group:
+        if constraint.TypeId == "Fem::ConstraintFixed":
+            made += _at_references(constraint, objects.Support, beams, analysis, notes)
+        elif constraint.TypeId == "Fem::ConstraintForce":
+            made += _forces_of(constraint, beams, analysis, notes)
+        elif _kind(constraint) == "Fem::ConstraintSelfWeight":
+            analysis.GravityDirection = FreeCAD.Vector(constraint.Gravity_x, constraint.Gravity_y, constraint.Gravity_z)
+    return made, notes
+
+
+def _kind(obj):
+    return getattr(getattr(obj, "Proxy", None), "Type", "")
+
+
+def _beams_of(section, material, analysis, notes):
+    made = []
+    for root, names in section.References:
+        for name in names:
+            beam = objects.make(objects.Beam, analysis.Document, f"{root.Label} {name}", analysis)
+            beam.Axis, beam.Material = (root, [name]), material
+            if section.SectionType == "Circular":
+                beam.SectionKind, beam.Radius = "Round", section.CircDiameter / 2
+            elif section.SectionType == "Pipe":
+                beam.SectionKind, beam.Radius = "Pipe", section.PipeDiameter / 2
+                beam.Bore = section.PipeDiameter / 2 - section.PipeThickness
+            elif section.SectionType == "Rectangular":
+                beam.SectionKind, beam.Width, beam.Height = "Rectangle", section.RectWidth, section.RectHeight
+            else:
+                notes.append(f"{section.Label}: a section of type {section.SectionType} is not known; give the beam another")
+            made.append(beam)
+    return made
+
+
+def _at_references(constraint, cls, beams, analysis, notes):
+    """An object for each vertex that a constraint refers to, on the beam that it is an end or a place of."""
+    made = []
+    for root, names in constraint.References:
+        for name in names:
+            shape = places.shape_of(root, name)
+            beam = _beam_at(shape, beams)
+            if shape.ShapeType != "Vertex" or beam is None:
+                notes.append(f"{constraint.Label}: {root.Label}.{name} is no point of a beam and is left out")
+                continue
+            obj = objects.make(cls, analysis.Document, f"{constraint.Label} {name}", analysis)
+            obj.Beam, obj.PlaceKind, obj.Point = beam, "At a point", (root, [name])
+            made.append(obj)
+    return made
+
+
+def _beam_at(vertex, beams):
+    from ..case.axes import axis_of
+
+    near = [(vertex.distToShape(edge_of_nurbs(axis_of(beam).nurbs))[0], i) for i, beam in enumerate(beams)]
+    return beams[min(near)[1]] if near and min(near)[0] < 1e-3 else None
+
+
+def _forces_of(constraint, beams, analysis, notes):
+    """FEM's `Force` is a number in newtons, which all its references share."""
+    loads = _at_references(constraint, objects.Load, beams, analysis, notes)
+    direction = constraint.DirectionVector
+    for load in loads:
+        load.Force = f"{constraint.Force / len(loads)!r} N"
+        load.Direction = direction
+    return loads

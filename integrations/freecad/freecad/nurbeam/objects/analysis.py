@@ -1,0 +1,45 @@
+"""The analysis: the group that holds all parts of a model, and says what is asked of it."""
+
+from FreeCAD import Vector
+
+from .feature import Feature, Property
+
+STATES = ("Never run", "Running", "Done", "Interrupted", "Failed", "Out of date")
+
+
+class Analysis(Feature):
+    TYPE = "Nurbeam::Analysis"
+    CONTAINER = "App::DocumentObjectGroupPython"
+    PROPERTIES = (
+        Property("Enumeration", "AnalysisType", "Analysis", "What is asked for", "Motion",
+                 choices=("Motion", "Equilibrium", "Modes", "Buckling")),
+        Property("Quantity", "EndTime", "Analysis", "End of a motion", "1 s", "s"),
+        Property("Quantity", "Step", "Analysis", "Length of the steps of a motion; 0: as the tolerance asks for", "0 s", "s"),
+        Property("Float", "Tolerance", "Analysis", "Local error of steps whose length is not given", 1e-4),
+        Property("Quantity", "Every", "Analysis", "Time between stored states; 0: a hundredth of the end time", "0 s", "s"),
+        Property("Enumeration", "Start", "Analysis", "State at time 0", "As drawn", choices=("As drawn", "Equilibrium")),
+        Property("Integer", "LoadSteps", "Analysis", "Of an equilibrium: equal parts in which the loads are applied; 0: at once"),
+        Property("Integer", "ModeCount", "Analysis", "How many modes or buckling loads", 10),
+        Property("Acceleration", "Gravity", "Surroundings", "Its magnitude", "9.81 m/s^2"),
+        Property("Vector", "GravityDirection", "Surroundings", "The way down; of any length", Vector(0, 0, -1)),
+        Property("Quantity", "AirDensity", "Surroundings", "Of the air that drags on bodies; 0: none", "0 kg/m^3", "kg/m^3"),
+        Property("Speed", "Wind", "Surroundings", "Speed of the air"),
+        Property("Vector", "WindDirection", "Surroundings", "Where the wind blows to; of any length", Vector(1, 0, 0)),
+        Property("Path", "Folder", "Run", "For the results; empty: one that is deleted at the end"),
+        Property("Integer", "Threads", "Run", "The most threads that share a long beam; 0: one a core"),
+        Property("Enumeration", "Status", "Run", "Of the last run", "Never run", choices=STATES, output=True),
+        Property("String", "Message", "Run", "How the last run has ended", output=True),
+    )  # fmt: skip
+
+    def compute(self, obj):
+        from ..case.write_case import is_same_case, written_case
+        from .result import result_of
+
+        result = result_of(obj)
+        if result is None or obj.Status == "Running":
+            return
+        is_current = is_same_case(written_case(obj).text, result.CaseText)
+        if obj.Status == "Done" and not is_current:
+            obj.Status = "Out of date"
+        elif obj.Status == "Out of date" and is_current:
+            obj.Status = "Done"

@@ -1,0 +1,21 @@
+"""What holds a place of a beam."""
+
+from FreeCAD import Vector
+
+from .feature import Feature, Property
+from .place import PLACE, SLOPE, TABLE
+
+
+class Support(Feature):
+    TYPE = "Nurbeam::Support"
+    PROPERTIES = (
+        *PLACE,
+        Property("Enumeration", "SupportKind", "Support", "What it holds: position and direction; position; position and "
+                 "roll; position but for one direction", "Clamped", choices=("Clamped", "Pinned", "Fork", "Guided")),
+        Property("Vector", "Direction", "Support", "Of Guided: the way in which it is free", Vector(1, 0, 0)),
+        Property("Vector", "HingeAxis", "Support", "Of Pinned, of a beam that twists: it turns about this direction alone; 0 0 0: about all"),
+        Property("Force", "Pull", "Support", "Of Guided: along Direction, as a weight over a pulley does"),
+        Property("Quantity", "PullMass", "Support", "Of Guided: inertia of that weight", "0 kg", "kg"),
+        *TABLE,
+        SLOPE,
+    )  # fmt: skip

@@ -1,0 +1,124 @@
+"""The panel of beams, supports, bodies, loads and the like: a form made of the table of the object."""
+
+from PySide import QtCore, QtGui
+
+from .. import objects
+from .fields import field_of
+from .task import TaskPanel
+
+# Rows that are of use only with some choices of another row.
+SHOWN_WITH = {
+    objects.Beam.TYPE: {
+        "SectionKind": {
+            "Radius": ("Round", "Pipe"), "Bore": ("Pipe",), "Width": ("Rectangle", "I"), "Height": ("Rectangle", "I"),
+            "Flange": ("I",), "Web": ("I",), "RopeDiameter": ("Rope",), "MetallicArea": ("Rope",), "Wires": ("Rope",),
+            "Profile": ("Profile",), "Area": ("Numbers",), "SecondMoment": ("Numbers",), "SecondMomentY": ("Numbers",),
+            "TorsionConstant": ("Numbers",), "ExtremeFibre": ("Numbers",),
+        },
+        "LengthKind": {"UnstressedLength": ("Unstressed length",), "Tension": ("Tension",)},
+        "Orientation": {"Up": ("Up", "At the start")},
+    },
+    objects.Support.TYPE: {
+        "SupportKind": {"Direction": ("Guided",), "Pull": ("Guided",), "PullMass": ("Guided",), "HingeAxis": ("Pinned",)},
+    },
+    objects.Load.TYPE: {
+        "LoadKind": {
+            "Force": ("Force",), "Moment": ("Moment",), "ForcePerLength": ("Force per length",),
+            "TorquePerLength": ("Torque per length",), "Follower": ("Force", "Moment"), "Slope": ("Force",),
+            "PlaceKind": ("Force", "Moment"),
+        },
+    },
+    objects.Stop.TYPE: {
+        "StopKind": {"Restitution": ("Hard",), "Stiffness": ("Buffer",), "Damping": ("Buffer",)},
+    },
+    objects.Connector.TYPE: {
+        "ConnectorKind": {"Stiffness": ("Spring", "Tension only", "Compression only"),
+                          "Damping": ("Spring", "Tension only", "Compression only")},
+        "LengthKind": {"FreeLength": ("Length",), "Force": ("Force",)},
+    },
+    objects.DeformedShape.TYPE: {"Form": {"Radius": ("Solid",), "Bore": ("Solid",)}},
+}  # fmt: skip
+PLACES = {"PlaceLength": ("Length",), "Fraction": ("Fraction",), "Point": ("At a point",)}
+
+
+def rules_of(obj):
+    """{choice: {row: values with which it is shown}} of the kind of an object."""
+    rules = dict(SHOWN_WITH.get(objects.type_of(obj), {}))
+    for prefix in ("", "From", "To"):
+        if f"{prefix}PlaceKind" in obj.PropertiesList:
+            rules[f"{prefix}PlaceKind"] = {prefix + name: values for name, values in PLACES.items()}
+    return rules
+
+
+class PartPanel(TaskPanel):
+    """A tab for each group of properties."""
+
+    def __init__(self, obj):
+        super().__init__(obj, obj.Label)
+
+    def build(self):
+        self.fields, self.labels, self.tab_of = {}, {}, {}
+        self.message = QtGui.QLabel()
+        self.message.setWordWrap(True)
+        self.tabs = QtGui.QTabWidget()
+        self.layout.addWidget(self.tabs)
+        self.layout.addWidget(self.message)
+        pages = {}
+        for row in self.obj.Proxy.table():
+            if row.hidden or row.output:
+                continue
+            if row.group not in pages:
+                pages[row.group] = self._page(row.group)
+            self._add(row, pages[row.group])
+        self._order_tabs()
+        for choice in rules_of(self.obj):
+            self.fields[choice].currentTextChanged.connect(lambda _: self.show_rows())
+        self.show_rows()
+        self._show_message()
+
+    def _page(self, group):
+        page = QtGui.QWidget()
+        layout = QtGui.QFormLayout(page)
+        self.tabs.addTab(page, group)
+        return layout
+
+    def _add(self, row, layout):
+        field = field_of(self.obj, row)
+        label = QtGui.QLabel(_words(row.name))
+        for widget in (field, label):
+            widget.setToolTip(row.help)
+        layout.addRow(label, field)
+        self.fields[row.name], self.labels[row.name] = field, label
+        self.tab_of[row.name] = layout.parentWidget()
+
+    def _order_tabs(self):
+        """"More" last."""
+        for i in range(self.tabs.count()):
+            if self.tabs.tabText(i) == "More":
+                self.tabs.tabBar().moveTab(i, self.tabs.count() - 1)
+                break
+        self.tabs.setCurrentIndex(0)
+
+    def show_rows(self):
+        """Hides rows that the present choices do not use."""
+        for choice, rows in rules_of(self.obj).items():
+            for name, values in rows.items():
+                shown = getattr(self.obj, choice) in values
+                self.fields[name].setVisible(shown)
+                self.labels[name].setVisible(shown)
+
+    def _show_message(self):
+        wrong = "Invalid" in self.obj.State
+        self.message.setText(self.obj.getStatusString() if wrong else "")
+        self.message.setStyleSheet("color: #b00020" if wrong else "")
+
+    def show_property(self, prop):
+        if prop in self.fields:
+            self.tabs.setCurrentWidget(self.tab_of[prop])
+            self.fields[prop].setFocus(QtCore.Qt.OtherFocusReason)
+
+
+def _words(name):
+    """"PlaceLength" as "Place length"."""
+    words = "".join(" " + c.lower() if c.isupper() and i > 0 else c for i, c in enumerate(name))
+    return words

@@ -1,0 +1,78 @@
+"""Choosing parts of the document in the 3-D view."""
+
+import FreeCADGui
+from PySide import QtGui
+
+from ..geometry import places
+
+KINDS = {"Axis": "Edge Solid Wire", "Profile": "Edge Face Wire", "Point": "Vertex", "FromPoint": "Vertex", "ToPoint": "Vertex",
+         "DirectionOf": "Edge Face", "From": "Face Edge Vertex", "To": "Face Edge Vertex"}  # fmt: skip
+
+
+class Gate:
+    """Lets only those elements be chosen that are of use."""
+
+    def __init__(self, prop):
+        self.kinds = KINDS.get(prop, "").split()
+
+    def allow(self, document, obj, sub):
+        element = sub.rsplit(".", 1)[-1].rstrip("0123456789")
+        return not element or not self.kinds or element in self.kinds
+
+
+def link_of_selection():
+    """The selection as the value of an `App::PropertyXLinkSub`; None where nothing is selected.
+
+    Parts of several objects: those of the first, as one link has one root."""
+    chosen = FreeCADGui.Selection.getSelectionEx("", 0)
+    if not chosen:
+        return None
+    first = chosen[0]
+    return first.Object, [name for name in first.SubElementNames if name] or [""]
+
+
+class ReferenceList(QtGui.QWidget):
+    """The parts that a link names, a button that takes the selection, and one that empties it."""
+
+    def __init__(self, obj, row):
+        super().__init__()
+        self.obj, self.prop = obj, row.name
+        layout = QtGui.QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        self.list = QtGui.QListWidget()
+        self.list.setMaximumHeight(64)
+        self.pick = QtGui.QPushButton("Pick")
+        self.pick.setCheckable(True)
+        self.pick.setToolTip("Select in the 3-D view, then press again to take the selection")
+        self.clear = QtGui.QPushButton("Clear")
+        buttons = QtGui.QHBoxLayout()
+        buttons.addWidget(self.pick)
+        buttons.addWidget(self.clear)
+        layout.addWidget(self.list)
+        layout.addLayout(buttons)
+        self.pick.toggled.connect(self._picked)
+        self.clear.clicked.connect(lambda: self.set_link(None))
+        self.show_link()
+
+    def _picked(self, begins):
+        if begins:
+            FreeCADGui.Selection.addSelectionGate(Gate(self.prop))
+            self.pick.setText("Take the selection")
+            return
+        self.end_picking()
+        link = link_of_selection()
+        if link is not None:
+            self.set_link(link)
+
+    def end_picking(self):
+        FreeCADGui.Selection.removeSelectionGate()
+        self.pick.setText("Pick")
+
+    def set_link(self, link):
+        setattr(self.obj, self.prop, link)
+        self.show_link()
+
+    def show_link(self):
+        self.list.clear()
+        for root, path in places.parts_of_link(getattr(self.obj, self.prop)):
+            self.list.addItem(f"{root.Label}.{path}" if path else root.Label)

@@ -1,0 +1,163 @@
+"""The panel of a result: the slider of frames, play, exaggeration, colours, line or tube, plots, and a shape to keep."""
+
+import FreeCADGui
+import numpy as np
+from PySide import QtCore, QtGui
+
+from .. import objects
+from ..view.animation import COLOURS
+
+PLAY_INTERVAL = 40  # ms
+PLAY_SECONDS = 5.0  # in which a motion is shown where it is much shorter or longer
+
+
+class Legend(QtGui.QWidget):
+    """The colours with the numbers at their ends."""
+
+    def __init__(self):
+        super().__init__()
+        layout = QtGui.QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        self.low, self.bar, self.high = QtGui.QLabel(), QtGui.QLabel(), QtGui.QLabel()
+        stops = ", ".join(f"stop:{i / (len(COLOURS) - 1):.2f} rgb({', '.join(str(int(255 * c)) for c in colour)})"
+                          for i, colour in enumerate(COLOURS))  # fmt: skip
+        self.bar.setStyleSheet(f"background: qlineargradient(x1:0, y1:0, x2:1, y2:0, {stops})")
+        self.bar.setMinimumSize(80, 14)
+        for widget in (self.low, self.bar, self.high):
+            layout.addWidget(widget)
+        layout.setStretch(1, 1)
+
+    def show_scale(self, scale):
+        self.low.setText(f"{scale.low:.4g}")
+        self.high.setText(f"{scale.high:.4g}")
+        self.setToolTip(f"Colours span 98 % of all values; the least is {scale.least:.6g}, the greatest {scale.greatest:.6g}")
+
+
+class ResultsPanel:
+    """Looking changes nothing in the document: the frame is written to it when the panel is closed by OK."""
+
+    def __init__(self, obj):
+        self.obj, self.document = obj, obj.Document
+        self.animation = obj.ViewObject.Proxy.begin()
+        self.form = QtGui.QWidget()
+        self.form.setWindowTitle(obj.Label)
+        layout = QtGui.QFormLayout(self.form)
+        self.slider = QtGui.QSlider(QtCore.Qt.Horizontal)
+        self.slider.setRange(0, len(self.animation.times) - 1)
+        self.time, self.play_button = QtGui.QLabel(), QtGui.QPushButton("Play")
+        self.play_button.setCheckable(True)
+        self.exaggeration = QtGui.QDoubleSpinBox()
+        self.exaggeration.setRange(0, 1e6)
+        self.exaggeration.setValue(obj.Exaggeration)
+        self.colour, self.legend = QtGui.QComboBox(), Legend()
+        self.colour.addItems(self.animation.fields)
+        self.colour.setCurrentText(obj.ColourBy)
+        self.tube = QtGui.QCheckBox("Tube")
+        self.tube.setChecked(obj.Show == "Tube")
+        self.plots = QtGui.QComboBox()
+        self.plots.addItems(sorted(name for name in self.animation.results.histories if name != "time"))
+        self.plot_button, self.keep_button = QtGui.QPushButton("Plot"), QtGui.QPushButton("Keep this frame")
+        self.events = QtGui.QPlainTextEdit("\n".join([*obj.Warnings, *obj.Events]))
+        self.events.setReadOnly(True)
+        self._lay_out(layout)
+        self._connect()
+        self.slider.setValue(min(obj.Frame, self.slider.maximum()))
+        self.colour_changed(self.colour.currentText())
+
+    def _lay_out(self, layout):
+        for name, widget in (("Frame", self.slider), ("Time", self.time), ("", self.play_button), ("Exaggeration", self.exaggeration),
+                             ("Colour", self.colour), ("", self.legend), ("", self.tube), ("History", self.plots),
+                             ("", self.plot_button), ("", self.keep_button), ("Events", self.events)):  # fmt: skip
+            layout.addRow(name, widget)
+
+    def _connect(self):
+        self.timer = QtCore.QTimer()
+        self.timer.setInterval(PLAY_INTERVAL)
+        self.timer.timeout.connect(self.advance)
+        self.clock = QtCore.QElapsedTimer()
+        self.slider.valueChanged.connect(lambda _: self.show())
+        self.exaggeration.valueChanged.connect(lambda _: self.show())
+        self.tube.toggled.connect(lambda _: self.show())
+        self.colour.currentTextChanged.connect(self.colour_changed)
+        self.play_button.toggled.connect(self.play)
+        self.plot_button.clicked.connect(self.plot)
+        self.keep_button.clicked.connect(self.keep)
+
+    def show(self):
+        frame = self.slider.value()
+        self.animation.show(frame, self.exaggeration.value(), self.tube.isChecked())
+        self.time.setText(f"{self.animation.times[frame]:.6g} ({frame + 1} of {len(self.animation.times)})")
+
+    def colour_changed(self, field):
+        if field in self.animation.fields:
+            self.legend.show_scale(self.animation.colour_by(field))
+        self.show()
+
+    def play(self, goes):
+        """From the present frame on; frames are left out so that time runs true."""
+        if not goes:
+            self.timer.stop()
+            return
+        if self.slider.value() == self.slider.maximum():
+            self.slider.setValue(0)
+        self.started_at = self.animation.times[self.slider.value()]
+        self.clock.start()
+        self.timer.start()
+
+    def advance(self):
+        times = self.animation.times
+        span = times[-1] - times[0]
+        pace = 1.0 if 0.5 < span < 60 else span / PLAY_SECONDS
+        now = self.started_at + pace * self.clock.elapsed() / 1000
+        self.slider.setValue(int(np.searchsorted(times, now, side="right") - 1))
+        if now >= times[-1]:
+            self.slider.setValue(self.slider.maximum())
+            self.play_button.setChecked(False)
+
+    def plot(self):
+        from .plot import show_plot
+
+        show_plot(self.animation.results, self.plots.currentText())
+
+    def keep(self):
+        """A DeformedShape of each beam at the frame that is shown."""
+        self.document.openTransaction("Keep this frame")
+        kept = [keep_frame(self.obj, name, self.slider.value(), self.exaggeration.value()) for name in self.animation.names]
+        self.document.recompute()
+        self.document.commitTransaction()
+        return kept
+
+    def leave(self):
+        self.timer.stop()
+        self.obj.ViewObject.Proxy.end()
+        FreeCADGui.getDocument(self.document.Name).resetEdit()
+        FreeCADGui.Control.closeDialog()
+
+    def accept(self):
+        values = {"Frame": self.slider.value(), "Exaggeration": self.exaggeration.value(), "ColourBy": self.colour.currentText(),
+                  "Show": "Tube" if self.tube.isChecked() else "Line"}  # fmt: skip
+        changed = {name: value for name, value in values.items() if getattr(self.obj, name) != value}
+        if changed:
+            self.document.openTransaction("View of results")
+            for name, value in changed.items():
+                setattr(self.obj, name, value)
+            self.document.commitTransaction()
+        self.leave()
+        return True
+
+    def reject(self):
+        self.leave()
+        return True
+
+    def show_property(self, prop):
+        """All that there is, is shown."""
+
+
+def keep_frame(result, beam, frame, exaggeration=1.0):
+    """The beam of a result at a frame as a shape that stays."""
+    shape = objects.make(objects.DeformedShape, result.Document)
+    shape.Result, shape.BeamName = result, beam
+    shape.Time = f"{result.Times[frame]!r} s"
+    shape.Exaggeration = exaggeration
+    shape.Label = f"{beam} at {result.Times[frame]:.6g} s"
+    return shape

@@ -1,0 +1,132 @@
+"""The panel of an analysis: what is asked for, Check, Run, Stop, progress, and messages that lead to their objects."""
+
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from .. import objects
+from ..run.run_analysis import Finding, Run, check, start_run
+from ..run.command import Missing
+from .parts import PartPanel
+
+COLOURS = {"error": "#b00020", "warning": "#a06000"}
+
+
+class RunPanel(PartPanel):
+    def build(self):
+        super().build()
+        self.check_button, self.run_button = QtGui.QPushButton("Check"), QtGui.QPushButton("Run")
+        self.stop_button, self.results_button = QtGui.QPushButton("Stop"), QtGui.QPushButton("Results")
+        buttons = QtGui.QHBoxLayout()
+        for button, does in ((self.check_button, self.check), (self.run_button, self.run), (self.stop_button, self.stop),
+                             (self.results_button, self.open_results)):  # fmt: skip
+            button.clicked.connect(does)
+            buttons.addWidget(button)
+        self.progress, self.phase = QtGui.QProgressBar(), QtGui.QLabel()
+        self.messages = QtGui.QListWidget()
+        self.messages.setWordWrap(True)
+        self.messages.itemClicked.connect(self.select_object)
+        self.messages.itemDoubleClicked.connect(self.open_object)
+        self.layout.addLayout(buttons)
+        for widget in (self.progress, self.phase, self.messages):
+            self.layout.addWidget(widget)
+        self.process, self.findings = None, []
+        going_on = Run.running.get((self.document.Name, self.obj.Name))
+        if going_on:
+            self._follow(going_on)
+        self._show_state()
+
+    def show_findings(self, findings):
+        self.findings = list(findings)
+        self.messages.clear()
+        for finding in self.findings:
+            of = f"{finding.obj.Label}: " if finding.obj else ""
+            item = QtGui.QListWidgetItem(f"{finding.severity}: {of}{finding.message}", self.messages)
+            if finding.severity in COLOURS:
+                item.setForeground(QtGui.QColor(COLOURS[finding.severity]))
+
+    def check(self):
+        try:
+            _, findings = check(self.obj)
+        except Missing as problem:
+            findings = [Finding("error", self.obj, "Status", str(problem))]
+        self.show_findings(findings)
+        if not any(f.severity == "error" for f in findings):
+            self.phase.setText("Nothing is wrong.")
+
+    def run(self):
+        self.document.commitTransaction()  # what was said until now; the run is a step of undo of its own
+        run, findings = start_run(self.obj)
+        self.show_findings(findings)
+        if run:
+            self._follow(run)
+        self._show_state()
+
+    def _follow(self, run):
+        self.process = run
+        run.progressed.connect(self._show_progress)
+        run.told.connect(lambda _: self.show_findings(run.findings))
+        run.ended.connect(self._ended)
+
+    def stop(self):
+        if self.process:
+            self.process.stop()
+            self.phase.setText("Stopping after this step; once more ends it at once.")
+
+    def _show_progress(self, line):
+        if line.fraction is None:
+            self.progress.setRange(0, 0)
+        else:
+            self.progress.setRange(0, 1000)
+            self.progress.setValue(int(1000 * line.fraction))
+        to_go = f", {line.seconds_to_go:.0f} s to go" if line.seconds_to_go is not None else ""
+        at = f", t = {line.time:.4g}" if line.time is not None else ""
+        self.phase.setText(f"{line.phase.capitalize()}{at}{to_go}")
+        FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.obj.Label}: {self.phase.text()}")
+
+    def _ended(self, code):
+        run, self.process = self.process, None
+        if not self.document.HasPendingTransaction:
+            self.document.openTransaction(f"Edit {self.obj.Label}")
+        self.show_findings(run.findings)
+        self._show_state()
+        FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.obj.Label}: {self.obj.Status}")
+
+    def _show_state(self):
+        runs = self.process is not None
+        self.run_button.setEnabled(not runs)
+        self.stop_button.setEnabled(runs)
+        self.results_button.setEnabled(not runs and objects.result_of(self.obj) is not None)
+        if not runs:
+            self.progress.setRange(0, 1000)
+            self.progress.setValue(1000 if self.obj.Status == "Done" else 0)
+            self.phase.setText(f"{self.obj.Status}. {self.obj.Message}".strip())
+
+    def _finding_of(self, item):
+        return self.findings[self.messages.row(item)]
+
+    def select_object(self, item):
+        """One click selects the object that a message is about, and opens its panel at the property."""
+        finding = self._finding_of(item)
+        if finding.obj is None:
+            return
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(finding.obj)
+
+    def open_object(self, item):
+        finding = self._finding_of(item)
+        if finding.obj is None or finding.obj is self.obj:
+            self.show_property(finding.prop)
+            return
+        self.accept()
+        QtCore.QTimer.singleShot(0, lambda: _open(finding))
+
+    def open_results(self):
+        result = objects.result_of(self.obj)
+        self.accept()
+        QtCore.QTimer.singleShot(0, lambda: FreeCADGui.getDocument(result.Document.Name).setEdit(result.Name))
+
+
+def _open(finding):
+    from . import open_panel
+
+    open_panel(finding.obj, finding.prop)

@@ -1,0 +1,1 @@
+"""The command and the module of nurbeam: cases are run, results read; knows no window."""

@@ -1,0 +1,47 @@
+"""Wires as one curve, and pipes as their centre line."""
+
+import math
+
+import Part
+from FreeCAD import Vector
+
+from .. import objects
+from ..case.axes import axis_of
+from ..geometry import edges, wires
+from .support import DocumentTest, arc_wire, bent_pipe
+
+
+class Wires(DocumentTest):
+    def test_a_wire_with_an_arc_has_its_length(self):
+        drawn = arc_wire()
+        nurbs, deviation = wires.nurbs_of_edges([drawn[2], drawn[0], drawn[1]])
+        spline = edges.spline_of_nurbs(nurbs)
+        self.assertAlmostEqual(spline.length(), 250 + 25 * math.pi, 10)
+        self.assertEqual((spline.Degree, len(nurbs["control_points"]), deviation), (2, 7, 0))
+        for edge in drawn:
+            for i in range(11):
+                point = edge.valueAt(edge.FirstParameter + (edge.LastParameter - edge.FirstParameter) * i / 10)
+                self.assertLess(spline.value(spline.parameter(point)).distanceToPoint(point), 1e-12)
+
+    def test_edges_with_a_gap_are_refused_with_its_width(self):
+        lines = [Part.makeLine(Vector(0, 0, 0), Vector(100, 0, 0)), Part.makeLine(Vector(103, 0, 0), Vector(200, 0, 0))]
+        with self.assertRaisesRegex(wires.BrokenWire, "2 separate lines, the nearest 3 mm apart"):
+            wires.nurbs_of_edges(lines)
+
+    def test_a_pipe_gives_its_centre_line_and_radii(self):
+        pipe = self.add(bent_pipe(), "Pipe")
+        beam = objects.make(objects.Beam, self.document)
+        beam.Axis = pipe
+        axis = axis_of(beam)
+        self.assertAlmostEqual(edges.spline_of_nurbs(axis.nurbs).length(), 250 + 25 * math.pi, 9)
+        self.assertAlmostEqual(1000 * axis.radius, 10, 9)
+        self.assertAlmostEqual(1000 * axis.bore, 8, 9)
+
+    def test_reversed_swaps_the_ends(self):
+        beam = objects.make(objects.Beam, self.document)
+        beam.Axis = (self.add(Part.Wire(arc_wire()), "Wire"), ["Edge1", "Edge2", "Edge3"])
+        there = edges.spline_of_nurbs(axis_of(beam).nurbs)
+        beam.Reversed = True
+        back = edges.spline_of_nurbs(axis_of(beam).nurbs)
+        self.assertLess(there.StartPoint.distanceToPoint(back.EndPoint), 1e-12)
+        self.assertAlmostEqual(there.length(), back.length(), 9)

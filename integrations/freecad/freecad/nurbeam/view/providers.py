@@ -1,0 +1,114 @@
+"""View providers: icon, panel, and symbol of each kind of object."""
+
+import FreeCADGui
+from pivy import coin
+
+from .. import objects
+from . import icon, symbols
+from .animation import Animation
+
+ICON_OF = {
+    objects.Analysis.TYPE: "analysis", objects.Beam.TYPE: "beam", objects.Support.TYPE: "support",
+    objects.SlidingBody.TYPE: "body", objects.Load.TYPE: "load", objects.Joint.TYPE: "joint",
+    objects.Connector.TYPE: "connector", objects.Stop.TYPE: "stop", objects.Probe.TYPE: "probe",
+    objects.Result.TYPE: "results", objects.DeformedShape.TYPE: "keep", objects.CableOfLength.TYPE: "cable",
+}  # fmt: skip
+
+
+class Provider:
+    """Of objects with values alone."""
+
+    def __init__(self, view):
+        view.Proxy = self
+
+    def attach(self, view):
+        self.Object = view.Object
+
+    def getIcon(self):
+        return icon(ICON_OF.get(self.Object.NurbeamType, "nurbeam"))
+
+    def doubleClicked(self, view):
+        return FreeCADGui.ActiveDocument.setEdit(view.Object.Name)
+
+    def setEdit(self, view, mode=0):
+        from ..panels import open_panel
+
+        return open_panel(view.Object)
+
+    def unsetEdit(self, view, mode=0):
+        FreeCADGui.Control.closeDialog()
+        return True
+
+    def dumps(self):
+        return None
+
+    def loads(self, state):
+        return None
+
+    __getstate__ = dumps
+    __setstate__ = loads
+
+
+class SymbolProvider(Provider):
+    """Of objects that stand at a place of a beam."""
+
+    def attach(self, view):
+        super().attach(view)
+        self.symbol = symbols.Symbol(view.Object.NurbeamType)
+        view.addDisplayMode(self.symbol.node, "Symbol")
+
+    def getDisplayModes(self, view):
+        return ["Symbol"]
+
+    def getDefaultDisplayMode(self):
+        return "Symbol"
+
+    def setDisplayMode(self, mode):
+        return mode
+
+    def updateData(self, obj, prop):
+        if hasattr(self, "symbol"):
+            self.symbol.update(obj)
+
+
+class ResultProvider(Provider):
+    """Of results: the frame that is shown is its own, so that looking changes no document."""
+
+    def attach(self, view):
+        super().attach(view)
+        self.root = coin.SoSeparator()
+        self.animation = None
+        view.addDisplayMode(self.root, "Frame")
+
+    def getDisplayModes(self, view):
+        return ["Frame"]
+
+    def getDefaultDisplayMode(self):
+        return "Frame"
+
+    def setDisplayMode(self, mode):
+        return mode
+
+    def begin(self):
+        """The animation of the present data, made anew."""
+        self.end()
+        self.animation = Animation(self.Object)
+        self.root.addChild(self.animation.node)
+        return self.animation
+
+    def end(self):
+        if self.animation is not None:
+            self.animation.release()
+            self.root.removeAllChildren()
+            self.animation = None
+
+
+
+def provider_of(obj):
+    """The class for an object of the workbench; None for another one."""
+    kind = objects.type_of(obj)
+    if kind in symbols.SYMBOLS:
+        return SymbolProvider
+    if kind == objects.Result.TYPE:
+        return ResultProvider
+    return Provider if kind in objects.BY_TYPE else None

@@ -1,0 +1,341 @@
+# Run by FreeCAD with a window, under the limits of `run`: commands, panels, a run with its progress, the slider, plots.
+# Pictures go to the folder NURBEAM_PICTURES; the last line of "gui_report" says whether all was as it should be.
+import math
+import os
+import tempfile
+import traceback
+
+import FreeCAD
+import FreeCADGui as Gui
+import Part
+from FreeCAD import Vector
+from PySide import QtCore, QtGui
+
+PICTURES = os.environ["NURBEAM_PICTURES"]
+report = open("gui_report", "w")
+problems = []
+
+
+def expect(what, condition):
+    report.write(f"{'ok   ' if condition else 'WRONG'} {what}\n")
+    report.flush()
+    if not condition:
+        problems.append(what)
+
+
+def settle(seconds=0.3):
+    timer = QtCore.QElapsedTimer()
+    timer.start()
+    while timer.elapsed() < 1000 * seconds:
+        QtGui.QApplication.processEvents(QtCore.QEventLoop.AllEvents, 20)
+
+
+def wait_for(condition, seconds):
+    timer = QtCore.QElapsedTimer()
+    timer.start()
+    while not condition() and timer.elapsed() < 1000 * seconds:
+        QtGui.QApplication.processEvents(QtCore.QEventLoop.AllEvents, 20)
+    return condition()
+
+
+def picture(name, fit=True):
+    if fit:
+        Gui.SendMsgToActiveView("ViewFit")
+    settle(0.6)
+    window = Gui.getMainWindow()
+    pixmap = QtGui.QApplication.primaryScreen().grabWindow(0)
+    pixmap = pixmap.copy(window.geometry())
+    file = os.path.join(PICTURES, f"{name}.png")
+    pixmap.save(file)
+    image = pixmap.toImage()
+    colours = {image.pixel(x, y) for x in range(0, image.width(), 23) for y in range(0, image.height(), 23)}
+    expect(f"picture {name} shows something ({len(colours)} colours)", len(colours) > 20)
+
+
+def dialog():
+    return Gui.Control.activeDialog()
+
+
+def select(obj, *subs):
+    Gui.Selection.clearSelection()
+    for sub in subs or ("",):
+        Gui.Selection.addSelection(obj.Document.Name, obj.Name, sub)
+    settle(0.1)
+
+
+def run_command(name):
+    """The command as a user starts it: by its action in the toolbar."""
+    Gui.runCommand(name)
+    settle(0.3)
+
+
+def panel_of(obj):
+    """The panel as a double click in the tree opens it."""
+    from freecad.nurbeam import panels
+
+    opened = []
+    make = panels.panel_of
+    panels.panel_of = lambda each: opened.append(make(each)) or opened[-1]
+    try:
+        Gui.ActiveDocument.setEdit(obj.Name)
+    finally:
+        panels.panel_of = make
+    settle(0.3)
+    return opened[0] if opened else None
+
+
+def pipe():
+    """As a user draws one: a sketch with lines and an arc, swept by rings."""
+    arc = Part.ArcOfCircle(Part.Circle(Vector(500, 200, 0), Vector(0, 0, 1), 200), -math.pi / 2, 0).toShape()
+    wire = Part.Wire([Part.makeLine(Vector(0, 0, 0), Vector(500, 0, 0)), arc, Part.makeLine(Vector(700, 200, 0), Vector(700, 600, 0))])
+    rods = [wire.makePipeShell([Part.Wire(Part.makeCircle(r, Vector(0, 0, 0), Vector(1, 0, 0)))], True, False) for r in (12, 10)]
+    return rods[0].cut(rods[1])
+
+
+def test_workbench():
+    Gui.activateWorkbench("NurbeamWorkbench")
+    settle(0.5)
+    expect("the workbench is active", Gui.activeWorkbench().name() == "NurbeamWorkbench")
+    known = [name for name in Gui.listCommands() if name.startswith("Nurbeam_")]
+    expect(f"17 commands are there, not {len(known)}", len(known) == 17)
+    expect("all commands have icons", all(not Gui.Command.get(n).getAction()[0].icon().isNull() for n in known if Gui.Command.get(n).getAction()))
+
+
+def test_a_pipe_of_a_foreign_file_becomes_a_beam_in_three_clicks(folder):
+    import Import
+
+    file = os.path.join(folder, "pipe.step")
+    drawn = FreeCAD.newDocument("Drawing")
+    solid = drawn.addObject("Part::Feature", "Pipe")
+    solid.Shape = pipe()
+    Import.export([solid], file)
+    FreeCAD.closeDocument("Drawing")
+    document = FreeCAD.newDocument("Pipe")
+    Import.insert(file, "Pipe")
+    document.recompute()
+    solid = next(o for o in document.Objects if hasattr(o, "Shape") and o.Shape.Solids and not o.TypeId.startswith("App::"))
+    Gui.activeDocument().activeView().viewIsometric()
+    select(solid)  # one
+    run_command("Nurbeam_Beam")  # two
+    expect("a panel is open", dialog())
+    picture("beam")
+    from freecad.nurbeam import objects
+
+    beam = next(o for o in document.Objects if objects.type_of(o) == objects.Beam.TYPE)
+    expect("the section is that of the pipe", beam.SectionKind == "Of the pipe")
+    close(True)  # three
+    length = 500 + 100 * math.pi + 400
+    expect(f"its length is {beam.Length}", abs(beam.Length.Value - length) < 1e-8)
+    expect(f"the beam is up to date: {beam.getStatusString()}", beam.State == ["Up-to-date"])
+    return document, beam
+
+
+def close(keep):
+    """OK or Cancel of the open panel, by its buttons."""
+    window = Gui.getMainWindow()
+    for box in window.findChildren(QtGui.QDialogButtonBox):
+        button = box.button(QtGui.QDialogButtonBox.Ok if keep else QtGui.QDialogButtonBox.Cancel) or (None if keep else box.button(QtGui.QDialogButtonBox.Close))
+        if button is not None and button.isVisible():
+            button.click()
+            break
+    settle(0.4)
+    if dialog():
+        Gui.Control.closeDialog()
+        settle(0.2)
+
+
+def test_hang_load_and_run(document, beam):
+    from freecad.nurbeam import objects
+
+    run_command("Nurbeam_Support")
+    picture("support")
+    close(True)
+    run_command("Nurbeam_Load")
+    load = next(o for o in document.Objects if objects.type_of(o) == objects.Load.TYPE)
+    load.PlaceKind, load.Force = "End", "200 N"
+    close(True)
+    expect("the load stays after OK", abs(load.Force.getValueAs("N").Value - 200) < 1e-9)
+    panel = panel_of(load)
+    panel.fields["PlaceKind"].setCurrentText("Start")
+    expect("a choice of the panel is written at once", load.PlaceKind == "Start")
+    close(False)
+    expect("Cancel takes it back", load.PlaceKind == "End")
+    panel = panel_of(load)
+    panel.fields["Force"].setProperty("rawValue", 300.0 * 1000)
+    expect(f"a quantity of the panel is written: {load.Force}", abs(load.Force.getValueAs("N").Value - 300) < 1e-9)
+    close(False)
+    expect("Cancel takes the quantity back", abs(load.Force.getValueAs("N").Value - 200) < 1e-9)
+    analysis = objects.analysis_of(beam)
+    analysis.AnalysisType = "Motion"
+    analysis.EndTime, analysis.Every = "1 s", "0.02 s"
+    beam.Elements = 16
+    document.recompute()
+    run_and_look(document, analysis)
+
+
+def run_and_look(document, analysis):
+    from freecad.nurbeam import objects
+    from freecad.nurbeam.run.run_analysis import Run
+
+    panel = panel_of(analysis)
+    expect("the panel of the analysis opens", panel is not None)
+    ticks = []
+    timer = QtCore.QTimer()
+    timer.timeout.connect(lambda: ticks.append(1))
+    timer.start(20)
+    panel.run_button.click()
+    expect("a run goes on", bool(Run.running))
+    wait_for(lambda: panel.phase.text().startswith("Motion"), 10)
+    picture("run", fit=False)
+    wait_for(lambda: not Run.running, 60)
+    timer.stop()
+    expect(f"the window stayed alive ({len(ticks)} ticks)", len(ticks) > 5)
+    expect(f"the run is done: {analysis.Message}", analysis.Status == "Done")
+    close(True)
+    result = objects.result_of(analysis)
+    expect("there is a result", result is not None and len(result.Times) == 51)
+    look_at_result(document, result)
+
+
+def look_at_result(document, result):
+    document.saveAs(os.path.join(tempfile.mkdtemp(), "gui.FCStd"))
+    Gui.SendMsgToActiveView("Save")
+    settle(0.2)
+    expect("the document is saved", not Gui.ActiveDocument.Modified)
+    panel = panel_of(result)
+    expect("the panel of the result opens", panel is not None)
+    for frame in (10, 30, 50):
+        panel.slider.setValue(frame)
+        settle(0.1)
+    panel.colour.setCurrentText("bending_moment")
+    expect("looking leaves the document as it was", not Gui.ActiveDocument.Modified)
+    picture("results")
+    panel.tube.setChecked(True)
+    panel.exaggeration.setValue(3)
+    picture("tube")
+    panel.play_button.setChecked(True)
+    settle(0.5)
+    panel.play_button.setChecked(False)
+    expect("looking still leaves the document as it was", not Gui.ActiveDocument.Modified)
+    panel.exaggeration.setValue(1)
+    panel.slider.setValue(50)
+    panel.plots.setCurrentText(next(n for n in panel.animation.results.histories if n.startswith("energy.")))
+    panel.plot_button.click()
+    settle(0.4)
+    dock = Gui.getMainWindow().findChild(QtGui.QDockWidget, "nurbeam plot")
+    expect("the plot is there", dock is not None and dock.isVisible())
+    picture("plot", fit=False)
+    dock.hide()
+    panel.keep_button.click()
+    settle(0.3)
+    kept = [o for o in document.Objects if o.Name.startswith("DeformedShape")]
+    expect("a kept frame is a shape of its own", len(kept) == 1 and kept[0].Shape.Length > 1000)
+    close(True)
+    expect("OK writes the frame", result.Frame == 50)
+
+
+def test_gate():
+    from freecad.nurbeam.panels.references import Gate
+
+    gate = Gate("Axis")
+    expect("edges may be chosen as axis", gate.allow(None, None, "Sketch.Edge2"))
+    expect("vertices may not", not gate.allow(None, None, "Sketch.Vertex1"))
+
+
+def test_faults(document, beam):
+    from freecad.nurbeam import objects
+
+    analysis = objects.analysis_of(beam)
+    beam.Material = None
+    panel = panel_of(analysis)
+    panel.check_button.click()
+    settle(0.3)
+    texts = [panel.messages.item(i).text() for i in range(panel.messages.count())]
+    expect(f"the missing material is told: {texts}", any("no material is chosen" in t for t in texts))
+    expect("the beam is marked", "Invalid" in beam.State)
+    picture("faults")
+    panel.messages.itemClicked.emit(panel.messages.item(0))
+    expect("one click selects the object", Gui.Selection.getSelection() == [beam])
+    close(False)
+
+
+def test_every_panel_opens(document, beam):
+    from freecad.nurbeam import objects
+
+    analysis = objects.analysis_of(beam)
+    for cls in (objects.SlidingBody, objects.Joint, objects.Connector, objects.Stop, objects.Probe):
+        obj = objects.make(cls, document, analysis=analysis)
+        expect(f"{cls.__name__} has its view", type(obj.ViewObject.Proxy).__module__ == "freecad.nurbeam.view.providers")
+        panel = panel_of(obj)
+        expect(f"the panel of {cls.__name__} opens", panel is not None and dialog())
+        close(False)
+        document.removeObject(obj.Name)
+
+
+def test_cable():
+    document = FreeCAD.newDocument("Cable")
+    for name, base, direction in (("Left", Vector(0, 0, 0), Vector(1, 0, 0)), ("Right", Vector(830, 200, 100), Vector(-1, 0, 0))):
+        plug = document.addObject("Part::Feature", name)
+        plug.Shape = Part.makeCylinder(20, 30, base, direction)
+    document.recompute()
+    faces = {}
+    for plug in document.Objects:
+        far = Vector(30, 0, 0) if plug.Name == "Left" else Vector(800, 200, 100)
+        faces[plug.Name] = next(f"Face{i}" for i, f in enumerate(plug.Shape.Faces, 1) if f.CenterOfMass.distanceToPoint(far) < 1e-6)
+    Gui.activeDocument().activeView().viewIsometric()
+    Gui.Selection.clearSelection()
+    for name, face in faces.items():
+        Gui.Selection.addSelection("Cable", name, face)
+    run_command("Nurbeam_CableOfLength")
+    cable = next(o for o in document.Objects if o.Name.startswith("CableOfLength"))
+    expect(f"the cable is found: {cable.getStatusString()}", cable.State == ["Up-to-date"])
+    cable.Slack, cable.Solid = 40, True
+    document.recompute()
+    close(True)
+    panel_of(cable)
+    picture("cable")
+    close(True)
+    before = cable.Shape.Edges[0].Length
+    cable.Slack = 60
+    document.recompute()
+    expect("it follows its length", cable.Shape.Edges[0].Length != before and cable.State == ["Up-to-date"])
+
+
+def widen_panels():
+    """As wide as a panel needs, and without the report below."""
+    window = Gui.getMainWindow()
+    for dock in window.findChildren(QtGui.QDockWidget):
+        if dock.objectName() == "Report view":
+            dock.hide()
+        if dock.objectName() == "Combo View":
+            window.resizeDocks([dock], [430], QtCore.Qt.Horizontal)
+
+
+def main():
+    Gui.getMainWindow().resize(1400, 900)
+    Gui.getMainWindow().move(0, 0)
+    widen_panels()
+    FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Start").SetBool("ShowOnStartup", False)
+    folder = tempfile.mkdtemp()
+    test_workbench()
+    document, beam = test_a_pipe_of_a_foreign_file_becomes_a_beam_in_three_clicks(folder)
+    test_hang_load_and_run(document, beam)
+    test_gate()
+    test_every_panel_opens(document, beam)
+    test_faults(document, beam)
+    test_cable()
+
+
+def guarded():
+    try:
+        main()
+    except BaseException:
+        problems.append("exception")
+        report.write(traceback.format_exc())
+    finally:
+        report.write("all is as it should be\n" if not problems else f"{len(problems)} problems\n")
+        report.close()
+        os._exit(1 if problems else 0)
+
+
+QtCore.QTimer.singleShot(500, guarded)
