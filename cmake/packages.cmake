@@ -1,9 +1,10 @@
-# cpack -G DEB in the build tree: nurbeam (the programs), libnurbeam-dev (libraries and headers) and python3-nurbeam.
+# cpack -G DEB in the build tree: nurbeam (the programs), libnurbeam-dev (libraries and headers), python3-nurbeam and
+# freecad-nurbeam (the FreeCAD workbench).
 set(packaged_components runtime dev)
 set(packaged_names nurbeam libnurbeam-dev)
 if(NURBEAM_WITH_PYTHON)
-  list(APPEND packaged_components python)
-  list(APPEND packaged_names python3-nurbeam)
+  list(APPEND packaged_components python freecad)
+  list(APPEND packaged_names python3-nurbeam freecad-nurbeam)
 endif()
 set(CPACK_PACKAGE_NAME nurbeam)
 set(CPACK_PACKAGE_CONTACT "The nurbeam authors <authors@nurbeam.invalid>")
@@ -57,4 +58,12 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
   "python3-scipy, python3-matplotlib, python3-pandas, python3-xarray, python3-tqdm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "nurbeam from Python
  Curves, models, runs, forces of one's own and results as arrays.")
+set(CPACK_DEBIAN_FREECAD_PACKAGE_NAME freecad-nurbeam)
+set(CPACK_DEBIAN_FREECAD_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_FREECAD_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_FREECAD_PACKAGE_DEPENDS
+  "nurbeam (= ${PROJECT_VERSION}), python3-nurbeam (= ${PROJECT_VERSION}), freecad (>= 0.20)")
+set(CPACK_COMPONENT_FREECAD_DESCRIPTION "FreeCAD workbench of nurbeam
+ Flexible beams along curves of a document, with bodies that slide on them,
+ and cables of a given length between connectors.")
 include(CPack)
