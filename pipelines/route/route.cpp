@@ -147,7 +147,7 @@ class RouteSearch {
             .length = length,
             .drawn_length = beam.length,
             .distance = distance_of(request_),
-            .least_radius = stiffness / beam.moment_max.value,
+            .least_radius = stiffness / std::abs(beam.moment_max.value),
             .least_radius_s = beam.moment_max.s,
             .largest_tension = std::max(0.0, beam.axial_force_max.value),
             .largest_thrust = std::max(0.0, -beam.axial_force_min.value),
@@ -161,18 +161,22 @@ class RouteSearch {
   // that keeps it bounds a search by halves.
   void keep_radius(double wanted) {
     constexpr double coarse = 1e-4;
-    double longest_short = 0;
+    double too_short = 0, longest = 0;
     std::optional<Route> best;
     for (const double excess : scanned_excesses) {
       const double length = (1 + excess) * distance_of(request_);
       Attempt tried = equilibrium(length, coarse);
-      if (!tried.route) return take(std::move(tried));
-      if (tried.route->least_radius >= wanted) return shorten(wanted, longest_short, length);
+      if (tried.out_of_time || (has_errors(tried.diagnostics) && !tried.unsolved))
+        return take(std::move(tried));
+      longest = length;
+      if (!tried.route) continue;  // too taut, or not found: another length may do
+      if (tried.route->least_radius >= wanted) return shorten(wanted, too_short, length);
+      too_short = length;
       if (!best || tried.route->least_radius > best->least_radius) best = std::move(tried.route);
-      longest_short = length;
     }
+    if (!best) return take(at_length(longest, "least_bend_radius"));
     say(Severity::error, "least_bend_radius",
-        "is " + metres(wanted) + ", which no length up to " + metres(longest_short) +
+        "is " + metres(wanted) + ", which no length up to " + metres(longest) +
             " keeps; the largest possible is about " + metres(best->least_radius) + ", at a length of " +
             metres(best->length));
   }

@@ -71,11 +71,12 @@ struct RouteReport {
 /// that no length keeps and a search beyond its time limit are diagnostics that name the values.
 RouteReport find_route(const RouteRequest& request, const RouteOptions& options = {});
 
-/// A smooth curve of that length [m] from one end to the other along both directions, from which the search
-/// for equilibrium starts: a cubic of five control points a, a + h t_a, m, b + h t_b, b, where h is a quarter
-/// of the shorter of length and distance, less where the curve would be too long, and m lies midway, pushed
-/// along gravity until the length is right; without gravity, or where that is along the chord, across the
-/// chord. Precondition: the length is greater than the distance of the ends, which is not 0.
+/// A smooth curve from one end to the other along both directions, from which the search for equilibrium
+/// starts: a cubic of five control points a, a + h t_a, m, b + h t_b, b, where h is a quarter of the shorter
+/// of length and distance, and m lies midway, pushed along gravity until the curve has that length [m];
+/// without gravity, or where that is along the chord, across the chord. Where it is longer than that already,
+/// as with ends across the chord of a taut cable, it is not pushed. Precondition: the distance of the ends is
+/// not 0.
 NurbsCurve route_start(const RouteEnd& from, const RouteEnd& to, double length,
                        const Eigen::Vector3d& gravity);
 

@@ -41,15 +41,11 @@ NurbsCurve route_start(const RouteEnd& from, const RouteEnd& to, double wanted,
                        const Eigen::Vector3d& gravity) {
   const Eigen::Vector3d chord = to.point - from.point, midway = 0.5 * (from.point + to.point);
   const Eigen::Vector3d push = push_direction(chord, gravity);
-  const auto excess = [&](double handle, double pushed) {
+  const double handle = 0.25 * std::min(wanted, chord.norm());
+  const auto excess = [&](double pushed) {
     return length(five_point_cubic(from, to, handle, midway + pushed * push)) - wanted;
   };
-  double handle = 0.25 * std::min(wanted, chord.norm());
-  // Ends that look away from each other: their handles alone may take more length than there is.
-  if (excess(handle, 0) > 0)
-    handle = 0.5 * root_between(
-                       0, handle, [&](double shorter) { return excess(shorter, 0); });
-  const double pushed = root_between(0, 2 * wanted, [&](double far) { return excess(handle, far); });
+  const double pushed = excess(0) < 0 ? root_between(0, 2 * wanted, excess) : 0;
   return five_point_cubic(from, to, handle, midway + pushed * push);
 }
 

@@ -20,11 +20,11 @@ RATIOS = [1.001, 1.01, 1.03, 1.06, 1.1, 1.25, 1.5, 2, 2.5, 3]
 
 
 def elastica(start, end, length, guess):
-    """The equilibrium of an inextensible rod that is straight when free, without torque: its points and their bend radii.
+    """The equilibrium of a rod that is straight when free, without torque: its points and their curvature.
 
-    With the tangent t, the force n in the section and the weight q of each metre: r' = t, n' = -q, and the balance of
-    moments EI t x t'' = -t x n gives EI t'' = l t - n with l = n.t - EI |t'|^2, which keeps |t| = 1. Solved as a boundary
-    value problem by collocation; `guess`: (9, places) r, t, t' at `places` equal parts of the length, and the force n at the
+    With the tangent t, the stretch c, the force n in the section and the weight q of each unstressed metre: r' = c t,
+    n' = -q, and the balance of moments EI t x t'' = -c t x n gives EI t'' = l t - c n with l = c n.t - EI |t'|^2, which keeps
+    |t| = 1. The stretch is that of Green's law, n.t = EA (c^3 - c) / 2. Solved as a boundary value problem by collocation; `guess`: (9, places) r, t, t' at `places` equal parts of the length, and the force n at the
     start. Returns s, r (3, s) and |t'| (s)."""
     a, b = np.array(start[0], float), np.array(end[0], float)
     ta = np.array(start[1], float) / np.linalg.norm(start[1])
@@ -35,8 +35,12 @@ def elastica(start, end, length, guess):
     def slopes(s, y, n0):
         t, d = y[3:6], y[6:9]
         n = n0[:, None] - weight[:, None] * s
-        pull = np.sum(n * t, axis=0) / EI - np.sum(d * d, axis=0)
-        return np.vstack([t, d, pull * t - n / EI])
+        tension = np.sum(n * t, axis=0)
+        c = np.ones_like(tension)
+        for _ in range(6):
+            c = c - (c**3 - c - 2 * tension / EA) / (3 * c**2 - 1)
+        pull = c * tension / EI - np.sum(d * d, axis=0)
+        return np.vstack([c * t, d, pull * t - c * n / EI])
 
     def ends(ya, yb, _):
         return np.concatenate([ya[:3] - a, ya[3:6] - ta, [ya[3:6] @ ya[6:9]], yb[:3] - b, across @ yb[3:6]])

@@ -39,6 +39,7 @@ def wait_for(condition, seconds):
 
 
 def picture(name, fit=True):
+    hide_report()
     if fit:
         Gui.SendMsgToActiveView("ViewFit")
     settle(0.6)
@@ -301,12 +302,16 @@ def test_cable():
     expect("it follows its length", cable.Shape.Edges[0].Length != before and cable.State == ["Up-to-date"])
 
 
-def widen_panels():
-    """As wide as a panel needs, and without the report below."""
-    window = Gui.getMainWindow()
-    for dock in window.findChildren(QtGui.QDockWidget):
+def hide_report():
+    for dock in Gui.getMainWindow().findChildren(QtGui.QDockWidget):
         if dock.objectName() == "Report view":
             dock.hide()
+
+
+def widen_panels():
+    """As wide as a panel needs."""
+    window = Gui.getMainWindow()
+    for dock in window.findChildren(QtGui.QDockWidget):
         if dock.objectName() == "Combo View":
             window.resizeDocks([dock], [430], QtCore.Qt.Horizontal)
 

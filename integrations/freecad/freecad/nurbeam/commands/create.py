@@ -65,7 +65,7 @@ class NewBeam(NewPart):
         if not link:
             return
         obj.Axis = link
-        obj.Label = link[0].Label
+        obj.Label = f"Beam {link[0].Label}"
         try:
             if places.is_solid(link):
                 obj.SectionKind = "Of the pipe"

@@ -4,6 +4,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 _NAME = "nurbeam plot"
+HEIGHT = 260  # pixels
 
 
 def show_plot(results, name):
@@ -21,7 +22,8 @@ def show_plot(results, name):
         dock.setObjectName(_NAME)
         window.addDockWidget(QtCore.Qt.BottomDockWidgetArea, dock)
     canvas = FigureCanvasQTAgg(figure)
-    canvas.setMinimumHeight(200)
+    canvas.setMinimumHeight(HEIGHT // 2)
     dock.setWidget(canvas)
     dock.show()
+    window.resizeDocks([dock], [HEIGHT], QtCore.Qt.Vertical)
     return axes

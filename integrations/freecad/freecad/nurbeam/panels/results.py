@@ -5,7 +5,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from .. import objects
-from ..view.animation import COLOURS
+from ..view.animation import COLOURS, UNITS
 
 PLAY_INTERVAL = 40  # ms
 PLAY_SECONDS = 5.0  # in which a motion is shown where it is much shorter or longer
@@ -27,9 +27,9 @@ class Legend(QtGui.QWidget):
             layout.addWidget(widget)
         layout.setStretch(1, 1)
 
-    def show_scale(self, scale):
+    def show_scale(self, scale, unit):
         self.low.setText(f"{scale.low:.4g}")
-        self.high.setText(f"{scale.high:.4g}")
+        self.high.setText(f"{scale.high:.4g} {unit}".strip())
         self.setToolTip(f"Colours span 98 % of all values; the least is {scale.least:.6g}, the greatest {scale.greatest:.6g}")
 
 
@@ -39,6 +39,7 @@ class ResultsPanel:
     def __init__(self, obj):
         self.obj, self.document = obj, obj.Document
         self.animation = obj.ViewObject.Proxy.begin()
+        self.unit = "s" if obj.Analysis and obj.Analysis.AnalysisType == "Motion" else ""
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(obj.Label)
         layout = QtGui.QFormLayout(self.form)
@@ -65,7 +66,7 @@ class ResultsPanel:
         self.colour_changed(self.colour.currentText())
 
     def _lay_out(self, layout):
-        for name, widget in (("Frame", self.slider), ("Time", self.time), ("", self.play_button), ("Exaggeration", self.exaggeration),
+        for name, widget in (("Frame", self.slider), ("Time" if self.unit else "State", self.time), ("", self.play_button), ("Exaggeration", self.exaggeration),
                              ("Colour", self.colour), ("", self.legend), ("", self.tube), ("History", self.plots),
                              ("", self.plot_button), ("", self.keep_button), ("Events", self.events)):  # fmt: skip
             layout.addRow(name, widget)
@@ -86,11 +87,11 @@ class ResultsPanel:
     def show(self):
         frame = self.slider.value()
         self.animation.show(frame, self.exaggeration.value(), self.tube.isChecked())
-        self.time.setText(f"{self.animation.times[frame]:.6g} ({frame + 1} of {len(self.animation.times)})")
+        self.time.setText(f"{self.animation.times[frame]:.6g} {self.unit} ({frame + 1} of {len(self.animation.times)})")
 
     def colour_changed(self, field):
         if field in self.animation.fields:
-            self.legend.show_scale(self.animation.colour_by(field))
+            self.legend.show_scale(self.animation.colour_by(field), UNITS.get(field, ""))
         self.show()
 
     def play(self, goes):

@@ -35,15 +35,16 @@ def found_route(obj):
     """The cable of a CableOfLength, within the time of a recompute, or of a run where it asks for one."""
     limit = RUN_LIMIT if obj.RunNow else RECOMPUTE_LIMIT
     with tempfile.TemporaryDirectory() as folder:
-        cables, curves = os.path.join(folder, "cables.json"), os.path.join(folder, "curves.json")
+        cables, out = os.path.join(folder, "cables.json"), os.path.join(folder, "cable.brep" if obj.Solid else "cable.json")
         with open(cables, "w", encoding="utf-8") as stream:
             json.dump(cable_file(obj), stream)
         share = limit / (RADIUS_SEARCHES if obj.Goal == "Bend radius" else 1)
-        arguments = ["route", cables, "--json", "--time-limit", repr(share), "--to", curves, "--unit", "m"]
+        arguments = ["route", cables, "--json", "--time-limit", repr(share), "--to", out]
+        arguments += ["--solid", repr(_positive(obj, "Diameter", obj.Diameter.Value) / 2000)] if obj.Solid else ["--unit", "m"]
         facts = json.loads(_run(arguments, limit))["cables"][0]
-        shape = _shape_of(curves)
-        return FoundRoute(_swept(shape, obj) if obj.Solid else shape, 1000 * facts["length [m]"],
-                          1000 * (facts["least_radius [m]"] or 0), f"{facts['largest_tension [N]']!r} N")  # fmt: skip
+        shape = Part.read(out).Solids[0] if obj.Solid else _shape_of(out)
+        return FoundRoute(shape, 1000 * facts["length [m]"], 1000 * (facts["least_radius [m]"] or 0),
+                          f"{facts['largest_tension [N]']!r} N")  # fmt: skip
 
 
 def _run(arguments, limit):
@@ -99,13 +100,3 @@ def _numbers(obj):
     axial = _positive(obj, "AxialStiffness", si(obj.AxialStiffness, "N"))
     area = mass / DENSITY
     return {"area": area, "second_moment": bending * area / axial}, {"density": DENSITY, "youngs_modulus": axial / area}
-
-
-def _swept(edge, obj):
-    """A round solid of the cable's diameter."""
-    radius = obj.Diameter.Value / 2
-    if radius <= 0:
-        raise NoRoute("Diameter: is 0; a solid needs one")
-    start, tangent = edge.valueAt(edge.FirstParameter), edge.tangentAt(edge.FirstParameter)
-    disc = Part.Wire(Part.makeCircle(radius, start, tangent))
-    return Part.Wire(edge).makePipeShell([disc], True, False)

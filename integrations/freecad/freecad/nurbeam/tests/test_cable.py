@@ -33,7 +33,7 @@ class Cables(DocumentTest):
         return self.cable.Shape.Edges[0]
 
     def test_a_cable_leaves_both_faces_and_has_its_length(self):
-        for length, radius in ((950, 141), (1200, 119), (1600, 108)):
+        for length in (950, 1200, 1600):
             edge = self.find(length)
             first, last = edge.FirstParameter, edge.LastParameter
             self.assertLess(edge.valueAt(first).distanceToPoint(Vector(30, 0, 0)), 1e-9)
@@ -42,9 +42,19 @@ class Cables(DocumentTest):
                 self.assertLess(abs(edge.tangentAt(at).getAngle(Vector(1, 0, 0))), 1.7e-6)  # 1e-4 degrees
             self.assertAlmostEqual(edge.Length / length, 1, 4)
             self.assertLess(abs(edge.Length / length - 1), 1e-5 + 2e-5)
-            self.assertAlmostEqual(self.cable.LeastRadius.Value / radius, 1, 1)
+            # By the drawn curve, whose curvature is some percent off; the elastica is asked in tests/python.
+            bend = max(edge.curvatureAt(first + (last - first) * i / 2000) for i in range(2001))
+            self.assertLess(abs(self.cable.LeastRadius.Value * bend - 1), 0.05)
             self.assertEqual(self.cable.LengthFound.Value, length)
-            self.assertGreater(self.cable.LargestTension.getValueAs("N").Value, 0)
+
+    def test_a_hanging_cable_carries_its_weight(self):
+        """At its lowest place, half way, it is level: at a clamp it carries half of its weight, and the push of its ends."""
+        edge = self.find(1600)
+        weight = 0.1 * 1.6 * 9.81
+        tension = self.cable.LargestTension.getValueAs("N").Value
+        self.assertGreater(tension, 0)
+        self.assertLess(tension, weight)
+        self.assertAlmostEqual(edge.BoundBox.XMin + edge.BoundBox.XMax, 830, 3)
 
     def test_impossible_wishes_are_told_with_what_would_be_possible(self):
         shape = self.find(950).Length
@@ -82,7 +92,7 @@ class Cables(DocumentTest):
         self.cable.Solid = True
         self.document.recompute()
         self.assertTrue(self.cable.Shape.isValid())
-        self.assertAlmostEqual(self.cable.Shape.Volume / (3.141592653589793 * 9 * length), 1, 4)
+        self.assertAlmostEqual(self.cable.Shape.Volume / (3.141592653589793 * 9 * length), 1, 5)
 
     def test_between_circles_and_ends_of_edges(self):
         rim = self.add(Part.makeCircle(10, Vector(0, 0, 0), Vector(1, 0, 0)), "Rim")

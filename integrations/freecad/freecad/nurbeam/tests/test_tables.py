@@ -34,7 +34,7 @@ class Values(DocumentTest):
     def test_names_have_no_forbidden_characters_and_are_unlike_each_other(self):
         self.assertEqual(name_for_case('a,"b', set(), "Beam"), "a__b")
         self.assertEqual(name_for_case("rail", {"rail"}, "Beam001"), "rail (Beam001)")
-        self.assertEqual(name_for_case("=x", set(), "Beam"), "_=x")
+        self.assertEqual(name_for_case("=x", set(), "Beam"), "_x")
 
     def test_extra_keys_are_merged_and_null_removes(self):
         self.assertEqual(merged({"a": {"b": 1, "c": 2}, "d": 3}, '{"a": {"c": 4}, "d": null}'), {"a": {"b": 1, "c": 4}})

@@ -10,6 +10,9 @@ PLACES = 201  # of a beam that are drawn
 CORNERS = 12  # of the section of a tube
 TUBE = 0.005  # radius of a tube over the size of the model, of a beam whose radius is not known
 LOW, HIGH = 1, 99  # percentiles that the colours span
+FAINT = 0.8  # transparency of what the beams were drawn on
+UNITS = {"axial_force": "N", "shear_force": "N", "bending_moment": "N m", "moment_1": "N m", "moment_2": "N m", "torque": "N m",
+         "stress": "Pa", "von_mises": "Pa", "curvature": "1/m", "displacement": "m", "twist": "rad", "velocity": "m/s"}  # fmt: skip
 
 # Blue to red over light grey, as (n, 3).
 COLOURS = np.array([[0.23, 0.30, 0.75], [0.55, 0.69, 1.00], [0.87, 0.87, 0.87], [0.96, 0.61, 0.48], [0.71, 0.02, 0.15]])
@@ -100,9 +103,24 @@ class Animation:
         self._values, self.scale, self.frame = {}, None, 0
         self._bodies = self._body_nodes(size)
         self._moved = {}
+        self._faded = self._fade()
 
     def _objects_by_name(self, result):
         return {name: obj for obj, name in written_case(result.Analysis).names.items()} if result.Analysis else {}
+
+    def _fade(self):
+        """Makes the pictures of the shapes that beams were drawn on faint: (root, node) of each."""
+        roots = {obj.Axis[0] for obj in self.objects.values() if getattr(obj, "Axis", None)}
+        faded = []
+        for root in roots:
+            faint = coin.SoMaterial()
+            for field in (faint.ambientColor, faint.diffuseColor, faint.specularColor, faint.emissiveColor, faint.shininess):
+                field.setIgnored(True)
+            faint.transparency = FAINT
+            faint.setOverride(True)
+            root.ViewObject.RootNode.insertChild(faint, 0)
+            faded.append((root.ViewObject.RootNode, faint))
+        return faded
 
     def _radius(self, name):
         """[mm]"""
@@ -145,8 +163,10 @@ class Animation:
     @staticmethod
     def _field(shape, field):
         """(PLACES,) at equal material coordinates."""
-        s = shape.s
-        return np.interp(np.linspace(s[0], s[-1], PLACES), s, shape.field(field))
+        s, values = shape.s, shape.field(field)
+        if values.ndim > 1:
+            values = np.linalg.norm(values, axis=1)
+        return np.interp(np.linspace(s[0], s[-1], PLACES), s, values)
 
     def show(self, frame, exaggeration=1.0, as_tube=False):
         """Shows a frame, counted from 0."""
@@ -179,7 +199,7 @@ class Animation:
         self._moved[solid.Name][1].translation = tuple(float(x) for x in by)
 
     def release(self):
-        """Puts solids back where they stand."""
-        for view, shift in self._moved.values():
-            view.removeChild(shift)
-        self._moved = {}
+        """Puts solids back where they stand, as they were."""
+        for view, node in [*self._moved.values(), *self._faded]:
+            view.removeChild(node)
+        self._moved, self._faded = {}, []

@@ -8,7 +8,7 @@ from ..case.axes import axis_of
 from ..geometry import places
 from ..geometry.edges import edge_of_nurbs
 
-PIXELS = 12.0
+PIXELS = 8.0
 
 
 def _cone():
