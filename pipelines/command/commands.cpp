@@ -252,7 +252,7 @@ Command route_entry() {
            {"--solid", "RADIUS", "solids instead of curves, in STEP or BREP"},
            {"--json", "", "what the cables have come to, as JSON"},
            {"--time-limit", "TIME", "for the equilibrium of one cable; otherwise 3 s"},
-           {"--tolerance", "N", "error of positions over the length; otherwise 1e-5"}},
+           {"--tolerance", "N", "error of positions over the length; otherwise 1e-6"}},
           route_command,
           exit_not_written};
 }

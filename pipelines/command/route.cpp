@@ -66,7 +66,7 @@ RouteOptions options_of(const Arguments& arguments) {
     throw UsageError("--time-limit: is " + arguments.value("--time-limit", "") + "; must be greater than 0");
   options.time_limit = std::chrono::duration<double>(limit);
   options.tolerance =
-      quantity_argument("--tolerance", arguments.value("--tolerance", "1e-5"), Dimension::number);
+      quantity_argument("--tolerance", arguments.value("--tolerance", "1e-6"), Dimension::number);
   return options;
 }
 

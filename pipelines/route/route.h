@@ -41,7 +41,7 @@ struct RouteRequest {
 struct RouteOptions {
   std::chrono::duration<double> time_limit{3};  ///< wall time of one equilibrium; the search for a bend
                                                 ///< radius takes up to searches_per_radius times that
-  double tolerance = 1e-5;                      ///< error of positions, over the length of the cable
+  double tolerance = 1e-6;                      ///< error of positions, over the length of the cable
   std::function<bool()> interrupted = {};       ///< asked often; true ends the search with an error
 };
 inline constexpr int searches_per_radius = 10;
@@ -75,8 +75,8 @@ RouteReport find_route(const RouteRequest& request, const RouteOptions& options 
 /// starts: a cubic of five control points a, a + h t_a, m, b + h t_b, b, where h is a quarter of the shorter
 /// of length and distance, and m lies midway, pushed along gravity until the curve has that length [m];
 /// without gravity, or where that is along the chord, across the chord. Where it is longer than that already,
-/// as with ends across the chord of a taut cable, it is not pushed. Precondition: the distance of the ends is
-/// not 0.
+/// as with ends across the chord of a taut cable, it is pushed by half of h, so that it has no cusp.
+/// Precondition: the distance of the ends is not 0.
 NurbsCurve route_start(const RouteEnd& from, const RouteEnd& to, double length,
                        const Eigen::Vector3d& gravity);
 

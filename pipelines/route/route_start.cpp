@@ -45,7 +45,7 @@ NurbsCurve route_start(const RouteEnd& from, const RouteEnd& to, double wanted,
   const auto excess = [&](double pushed) {
     return length(five_point_cubic(from, to, handle, midway + pushed * push)) - wanted;
   };
-  const double pushed = excess(0) < 0 ? root_between(0, 2 * wanted, excess) : 0;
+  const double pushed = excess(0) < 0 ? root_between(0, 2 * wanted, excess) : 0.5 * handle;
   return five_point_cubic(from, to, handle, midway + pushed * push);
 }
 

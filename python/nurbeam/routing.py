@@ -99,7 +99,7 @@ def route(
     gravity: npt.ArrayLike = (0, 0, -9.81),
     name: str = "cable",
     time_limit: float = 3,
-    tolerance: float = 1e-5,
+    tolerance: float = 1e-6,
 ) -> Route:
     """The equilibrium of a cable between two clamps, as an exact curve.
 
@@ -140,7 +140,7 @@ def route(
     return _found(json.dumps(case), name, time_limit, tolerance)[0]
 
 
-def routes(cables: str | os.PathLike[str] | Mapping[str, Any], time_limit: float = 3, tolerance: float = 1e-5) -> list[Route]:
+def routes(cables: str | os.PathLike[str] | Mapping[str, Any], time_limit: float = 3, tolerance: float = 1e-6) -> list[Route]:
     """The equilibria of all cables of a file, or of its contents: what `nurbeam route` finds. CaseError as `route`, also
     where there is no such file (MissingCase, a FileNotFoundError)."""
     if isinstance(cables, Mapping):

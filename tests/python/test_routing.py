@@ -11,6 +11,7 @@ import nurbeam as nb
 
 EI, EA, MASS, G = 0.02, 1e5, 0.1, 9.81
 NUMBERS = {"mass_per_length": MASS, "bending_stiffness": EI, "axial_stiffness": EA}
+PATIENT = {**NUMBERS, "time_limit": 60}  # on a machine that does much else besides
 ENDS = {
     "facing": (([0, 0, 0], [1, 0, 0]), ([0.6, 0, 0], [-1, 0, 0])),
     "U": (([0, 0, 0], [0, 0, -1]), ([0.4, 0, 0], [0, 0, -1])),
@@ -24,8 +25,7 @@ def elastica(start, end, length, guess):
 
     With the tangent t, the stretch c, the force n in the section and the weight q of each unstressed metre: r' = c t,
     n' = -q, and the balance of moments EI t x t'' = -c t x n gives EI t'' = l t - c n with l = c n.t - EI |t'|^2, which keeps
-    |t| = 1. The stretch is that of Green's law, n.t = EA (c^3 - c) / 2. Solved as a boundary value problem by collocation; `guess`: (9, places) r, t, t' at `places` equal parts of the length, and the force n at the
-    start. Returns s, r (3, s) and |t'| (s)."""
+    |t| = 1. The stretch is that of Green's law, n.t = EA (c^3 - c) / 2. Solved as a boundary value problem by collocation; `guess`: places s, (9, places) r, t, t', and the force n at the start. Returns s, r (3, s) and |t'| (s)."""
     a, b = np.array(start[0], float), np.array(end[0], float)
     ta = np.array(start[1], float) / np.linalg.norm(start[1])
     tb = -np.array(end[1], float) / np.linalg.norm(end[1])
@@ -45,8 +45,7 @@ def elastica(start, end, length, guess):
     def ends(ya, yb, _):
         return np.concatenate([ya[:3] - a, ya[3:6] - ta, [ya[3:6] @ ya[6:9]], yb[:3] - b, across @ yb[3:6]])
 
-    s = np.linspace(0, length, guess[0].shape[1])
-    found = solve_bvp(slopes, ends, s, guess[0], p=guess[1], tol=1e-9, max_nodes=200000)
+    found = solve_bvp(slopes, ends, *guess, tol=1e-7, max_nodes=20000)
     assert found.success, found.message
     places = np.linspace(0, length, 4001)
     y = found.sol(places)
@@ -65,9 +64,8 @@ def guess_of(route):
     bend = (d[:, 2] - np.sum(d[:, 2] * t, axis=1)[:, None] * t) / speed[:, None] ** 2
     s = np.concatenate([[0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(u))])
     s *= route.length / s[-1]
-    places = np.linspace(0, route.length, 201)
-    rows = np.hstack([d[:, 0], t, bend])
-    return np.array([np.interp(places, s, row) for row in rows.T]), -route.from_force
+    few = slice(None, None, 10)  # more where the elements are short
+    return s[few], np.hstack([d[:, 0], t, bend])[few].T, -route.from_force
 
 
 @pytest.mark.parametrize("kind", ENDS)
@@ -76,9 +74,9 @@ def test_a_routed_cable_is_the_elastica(kind, ratio):
     start, end = ENDS[kind]
     distance = np.linalg.norm(np.subtract(end[0], start[0]))
     length = ratio * distance
-    begun = time.perf_counter()
-    route = nb.route(start, end, length=length, **NUMBERS)
-    assert time.perf_counter() - begun < 3
+    begun = time.process_time()
+    route = nb.route(start, end, length=length, time_limit=60, **NUMBERS)
+    assert time.process_time() - begun < 3
     curve = route.curve
     assert np.linalg.norm(curve(curve.start) - start[0]) < 1e-12
     assert np.linalg.norm(curve(curve.end) - end[0]) < 1e-12
@@ -99,7 +97,7 @@ def test_a_routed_cable_is_the_elastica(kind, ratio):
 def test_the_numbers_of_a_cable_hung_between_facing_ends():
     """By the elastica above: sag, thrust and least bend radius."""
     start, end = ENDS["facing"]
-    route = nb.route(start, end, length=1, tolerance=1e-6, **NUMBERS)
+    route = nb.route(start, end, length=1, tolerance=1e-6, **PATIENT)
     s, points, bend = elastica(start, end, 1, guess_of(route))
     assert 1 / bend.max() == pytest.approx(0.0978144, abs=2e-6)
     assert -points[2].min() == pytest.approx(0.350830666, abs=2e-7)
@@ -111,21 +109,21 @@ def test_the_numbers_of_a_cable_hung_between_facing_ends():
 
 def test_the_shortest_length_that_keeps_a_bend_radius():
     start, end = ENDS["in space"]
-    route = nb.route(start, end, least_bend_radius=0.12, **NUMBERS)
+    route = nb.route(start, end, least_bend_radius=0.12, **PATIENT)
     assert route.least_radius >= 0.12
-    shorter = nb.route(start, end, length=0.999 * route.length, **NUMBERS)
+    shorter = nb.route(start, end, length=0.999 * route.length, **PATIENT)
     assert shorter.least_radius < 0.12
 
 
 def test_a_radius_that_no_length_keeps_names_the_largest():
     start, end = ENDS["facing"]
     with pytest.raises(nb.CaseError, match="no length up to .* the largest possible is about 0.1"):
-        nb.route(start, end, least_bend_radius=0.5, **NUMBERS)
+        nb.route(start, end, least_bend_radius=0.5, **PATIENT)
 
 
 def test_slack_is_a_part_of_the_distance():
     start, end = ENDS["U"]
-    assert nb.route(start, end, slack=0.5, **NUMBERS).length == pytest.approx(0.6, rel=1e-12)
+    assert nb.route(start, end, slack=0.5, **PATIENT).length == pytest.approx(0.6, rel=1e-12)
 
 
 def test_a_cable_that_is_too_short_names_both_lengths():

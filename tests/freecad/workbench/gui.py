@@ -243,6 +243,10 @@ def test_gate():
     expect("vertices may not", not gate.allow(None, None, "Sketch.Vertex1"))
 
 
+def titles():
+    return [w.windowTitle() for w in Gui.getMainWindow().findChildren(QtGui.QWidget) if w.isVisible()]
+
+
 def test_faults(document, beam):
     from freecad.nurbeam import objects
 
@@ -256,7 +260,9 @@ def test_faults(document, beam):
     expect("the beam is marked", "Invalid" in beam.State)
     picture("faults")
     panel.messages.itemClicked.emit(panel.messages.item(0))
+    settle(0.4)
     expect("one click selects the object", Gui.Selection.getSelection() == [beam])
+    expect("and opens its panel", wait_for(lambda: beam.Label in titles(), 5))
     close(False)
 
 
@@ -274,6 +280,9 @@ def test_every_panel_opens(document, beam):
 
 
 def test_cable():
+    from freecad.nurbeam.run import route
+
+    route.RECOMPUTE_LIMIT = 60.0  # of a machine that does much else besides
     document = FreeCAD.newDocument("Cable")
     for name, base, direction in (("Left", Vector(0, 0, 0), Vector(1, 0, 0)), ("Right", Vector(830, 200, 100), Vector(-1, 0, 0))):
         plug = document.addObject("Part::Feature", name)
@@ -316,6 +325,44 @@ def widen_panels():
             window.resizeDocks([dock], [430], QtCore.Qt.Horizontal)
 
 
+def test_zip_line():
+    """The sample, with its body on the way."""
+    import importlib.util
+
+    from freecad.nurbeam import objects
+    from freecad.nurbeam.run.run_analysis import start_run
+
+    file = os.path.join(os.environ["NURBEAM_SAMPLES"], "freecad", "zip_line.py")
+    spec = importlib.util.spec_from_file_location("zip_line_sample", file)
+    sample = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sample)
+    document = FreeCAD.newDocument("ZipLine")
+    analysis = sample.make(document)
+    analysis.EndTime = "3 s"
+    trolley = document.addObject("Part::Feature", "Trolley")
+    body = objects.members(analysis, objects.SlidingBody)[0]
+    trolley.Shape = Part.makeBox(800, 800, 1200, body.Position - Vector(400, 400, 1200))
+    body.MovesWith = trolley
+    document.recompute()
+    run, findings = start_run(analysis)
+    expect(f"the zip line runs: {findings}", run is not None and wait_for(lambda: run.code is not None, 40) and run.code == 0)
+    Gui.activeDocument().activeView().viewFront()
+    placed = FreeCAD.Placement(trolley.Placement)
+    panel = panel_of(objects.result_of(analysis))
+    panel.slider.setValue(0)
+    picture("zip_line_start")
+    panel.colour.setCurrentText("velocity")
+    panel.slider.setValue(150)
+    picture("zip_line")
+    shift = trolley.ViewObject.RootNode[0].translation.getValue().getValue()
+    moved = panel.animation.results[150].bodies["trolley"].position - panel.animation.results[0].bodies["trolley"].position
+    expect("the solid is shown where the body is", max(abs(a - 1000 * b) for a, b in zip(shift, moved)) < 1e-3)
+    expect("its placement stays", trolley.Placement == placed)
+    close(True)
+    first = trolley.ViewObject.RootNode[0]
+    expect("its picture is back", first.getTypeId().getName() != "Translation")
+
+
 def main():
     Gui.getMainWindow().resize(1400, 900)
     Gui.getMainWindow().move(0, 0)
@@ -329,6 +376,7 @@ def main():
     test_every_panel_opens(document, beam)
     test_faults(document, beam)
     test_cable()
+    test_zip_line()
 
 
 def guarded():

@@ -24,7 +24,7 @@ class NurbeamWorkbench(FreeCADGui.Workbench):
         return "Gui::PythonWorkbench"
 
 
-FreeCADGui.addLanguagePath(os.path.join(_HERE, "translations"))
+FreeCADGui.addPreferencePage(os.path.join(_HERE, "resources", "ui", "preferences.ui"), "nurbeam")
 FreeCADGui.addWorkbench(NurbeamWorkbench())
 
 from freecad.nurbeam.view import attach  # noqa: E402  (objects of documents need their view before the workbench is opened)

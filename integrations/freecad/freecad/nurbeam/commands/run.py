@@ -5,7 +5,7 @@ import os
 import FreeCADGui
 from PySide import QtGui
 
-from ..case.export_case import export_case
+from ..case.export_case import NoCase, export_case
 from .command import Command, active_analysis
 
 
@@ -49,5 +49,11 @@ class ExportCase(OfAnalysis):
 
     def Activated(self):
         file, _ = QtGui.QFileDialog.getSaveFileName(FreeCADGui.getMainWindow(), self.TITLE, "case.json", "Case (*.json)")
-        if file:
-            export_case(active_analysis(), os.path.dirname(file), os.path.basename(file))
+        if not file:
+            return
+        question = "Write the axes of the beams as axes.step beside the case, too?"
+        answer = QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), self.TITLE, question)
+        try:
+            export_case(active_analysis(), os.path.dirname(file), os.path.basename(file), answer == QtGui.QMessageBox.Yes)
+        except NoCase as problem:
+            QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), self.TITLE, str(problem))

@@ -2,11 +2,11 @@
 
 from FreeCAD import Vector
 
-from .feature import Feature, Property
-from .place import PLACE, SLOPE, TABLE
+from .feature import Property
+from .place import PLACE, SLOPE, TABLE, Placed
 
 
-class Load(Feature):
+class Load(Placed):
     TYPE = "Nurbeam::Load"
     PROPERTIES = (
         *PLACE,

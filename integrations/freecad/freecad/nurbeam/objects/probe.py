@@ -1,10 +1,10 @@
 """A place whose motion is stored."""
 
-from .feature import Feature, Property
-from .place import PLACE
+from .feature import Property
+from .place import PLACE, Placed
 
 
-class Probe(Feature):
+class Probe(Placed):
     TYPE = "Nurbeam::Probe"
     PROPERTIES = (
         *PLACE,

@@ -1,10 +1,10 @@
 """A body that slides on a beam."""
 
-from .feature import Feature, Property
-from .place import PLACE, SLOPE, TABLE
+from .feature import Property
+from .place import PLACE, SLOPE, TABLE, Placed
 
 
-class SlidingBody(Feature):
+class SlidingBody(Placed):
     TYPE = "Nurbeam::SlidingBody"
     PROPERTIES = (
         *PLACE,

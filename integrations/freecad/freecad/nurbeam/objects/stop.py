@@ -1,10 +1,10 @@
 """What sliding bodies come up against."""
 
-from .feature import Feature, Property
-from .place import PLACE
+from .feature import Property
+from .place import PLACE, Placed
 
 
-class Stop(Feature):
+class Stop(Placed):
     TYPE = "Nurbeam::Stop"
     PROPERTIES = (
         *PLACE,

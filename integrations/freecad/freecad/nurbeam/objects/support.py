@@ -2,11 +2,11 @@
 
 from FreeCAD import Vector
 
-from .feature import Feature, Property
-from .place import PLACE, SLOPE, TABLE
+from .feature import Property
+from .place import PLACE, SLOPE, TABLE, Placed
 
 
-class Support(Feature):
+class Support(Placed):
     TYPE = "Nurbeam::Support"
     PROPERTIES = (
         *PLACE,

@@ -8,6 +8,7 @@ from .. import objects
 from .references import ReferenceList
 
 QUANTITIES = ("Length", "Distance", "Area", "Force", "Speed", "Acceleration", "Quantity")
+SECOND_DECIMALS = 5
 TARGETS = {
     "Beam": (objects.Beam,), "FromObject": (objects.Beam, objects.SlidingBody), "ToObject": (objects.Beam, objects.SlidingBody),
 }  # fmt: skip
@@ -27,6 +28,8 @@ def _quantity(obj, row):
     box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
     quantity = getattr(obj, row.name)
     box.setProperty("unit", quantity.getUserPreferred()[2])
+    if row.unit == "s":  # FreeCAD has no unit below it
+        box.setProperty("decimals", SECOND_DECIMALS)
     box.setProperty("minimum", 0.0 if row.type in ("Length", "Area") else -1e300)
     box.setProperty("maximum", 1e300)
     box.setProperty("rawValue", quantity.Value)

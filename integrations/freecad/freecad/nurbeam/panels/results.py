@@ -8,6 +8,7 @@ from .. import objects
 from ..view.animation import COLOURS, UNITS
 
 PLAY_INTERVAL = 40  # ms
+ROUND_OFF = 1e-9  # of the other end of the colours
 PLAY_SECONDS = 5.0  # in which a motion is shown where it is much shorter or longer
 
 
@@ -28,7 +29,8 @@ class Legend(QtGui.QWidget):
         layout.setStretch(1, 1)
 
     def show_scale(self, scale, unit):
-        self.low.setText(f"{scale.low:.4g}")
+        low = scale.low if abs(scale.low) > ROUND_OFF * abs(scale.high) else 0
+        self.low.setText(f"{low:.4g}")
         self.high.setText(f"{scale.high:.4g} {unit}".strip())
         self.setToolTip(f"Colours span 98 % of all values; the least is {scale.least:.6g}, the greatest {scale.greatest:.6g}")
 

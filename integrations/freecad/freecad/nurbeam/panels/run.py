@@ -24,8 +24,7 @@ class RunPanel(PartPanel):
         self.progress, self.phase = QtGui.QProgressBar(), QtGui.QLabel()
         self.messages = QtGui.QListWidget()
         self.messages.setWordWrap(True)
-        self.messages.itemClicked.connect(self.select_object)
-        self.messages.itemDoubleClicked.connect(self.open_object)
+        self.messages.itemClicked.connect(self.open_object)
         self.layout.addLayout(buttons)
         for widget in (self.progress, self.phase, self.messages):
             self.layout.addWidget(widget)
@@ -101,22 +100,14 @@ class RunPanel(PartPanel):
             self.progress.setValue(1000 if self.obj.Status == "Done" else 0)
             self.phase.setText(f"{self.obj.Status}. {self.obj.Message}".strip())
 
-    def _finding_of(self, item):
-        return self.findings[self.messages.row(item)]
-
-    def select_object(self, item):
-        """One click selects the object that a message is about, and opens its panel at the property."""
-        finding = self._finding_of(item)
-        if finding.obj is None:
-            return
-        FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(finding.obj)
-
     def open_object(self, item):
-        finding = self._finding_of(item)
+        """One click selects the object that a message is about, and opens its panel at the property."""
+        finding = self.findings[self.messages.row(item)]
         if finding.obj is None or finding.obj is self.obj:
             self.show_property(finding.prop)
             return
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(finding.obj)
         self.accept()
         QtCore.QTimer.singleShot(0, lambda: _open(finding))
 

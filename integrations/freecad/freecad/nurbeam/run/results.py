@@ -48,8 +48,10 @@ def _summary(folder):
 
 
 def _event_text(event):
-    parts = [f"{key}: {value}" for key, value in event.items() if value not in (None, "")]
-    return ", ".join(parts[:5])
+    """As "t = 0.498 s: merge, cable, trolley, s = 2.04435 m"."""
+    what = [str(event[key]) for key in ("kind", "beam", "body") if event.get(key)]
+    at = [f"s = {event['s [m]']:.6g} m"] if event.get("s [m]") is not None else []
+    return f"t = {event.get('time [s]', 0):.6g} s: {', '.join(what + at)}"
 
 
 def read(result):

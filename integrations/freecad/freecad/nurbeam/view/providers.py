@@ -67,7 +67,7 @@ class SymbolProvider(Provider):
         return mode
 
     def updateData(self, obj, prop):
-        if hasattr(self, "symbol"):
+        if hasattr(self, "symbol") and "Position" in obj.PropertiesList:
             self.symbol.update(obj)
 
 

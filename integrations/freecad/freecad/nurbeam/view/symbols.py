@@ -4,11 +4,9 @@ import FreeCAD
 from pivy import coin
 
 from .. import objects
-from ..case.axes import axis_of
 from ..geometry import places
-from ..geometry.edges import edge_of_nurbs
 
-PIXELS = 8.0
+PIXELS = 14.0
 
 
 def _cone():
@@ -72,12 +70,14 @@ class Symbol:
 
     def update(self, obj):
         """Puts it where the object stands now."""
-        try:
-            point, direction = place_and_direction(obj)
-        except (ValueError, RuntimeError, AttributeError, ReferenceError):  # half said as yet
+        if getattr(obj, "Beam", None) is None:
             self._switch.whichChild = coin.SO_SWITCH_NONE
             return
-        self._place.translation = (point.x, point.y, point.z)
+        try:
+            direction = direction_of(obj)
+        except (places.NoPlace, AttributeError):  # an object that is being made or loaded lacks properties
+            return
+        self._place.translation = tuple(obj.Position)
         turn = FreeCAD.Rotation(FreeCAD.Vector(0, 1, 0), direction).Q
         self._place.rotation = turn
         self._switch.whichChild = coin.SO_SWITCH_ALL
@@ -91,30 +91,8 @@ def _of_one_size(shape):
     return scale
 
 
-def place_and_direction(obj):
-    """Where an object stands [mm], and where its symbol points. ValueError where that is not said."""
-    if obj.Beam is None:
-        raise ValueError("no beam is chosen")
-    edge = edge_of_nurbs(axis_of(obj.Beam).nurbs)
-    point = edge.valueAt(_parameter(obj, edge))
-    return point, _direction(obj)
-
-
-def _parameter(obj, edge):
-    if getattr(obj, "LoadKind", "").endswith("per length"):
-        return edge.getParameterByLength(0.5 * edge.Length)
-    if obj.PlaceKind == "End":
-        return edge.LastParameter
-    if obj.PlaceKind == "Length":
-        return edge.getParameterByLength(min(max(obj.PlaceLength.Value, 0), edge.Length))
-    if obj.PlaceKind == "Fraction":
-        return edge.getParameterByLength(min(max(obj.Fraction, 0), 1) * edge.Length)
-    if obj.PlaceKind == "At a point":
-        return edge.Curve.parameter(places.point_of_link(obj.Point))
-    return edge.FirstParameter
-
-
-def _direction(obj):
+def direction_of(obj):
+    """Where the symbol points: with a load, else up."""
     up = FreeCAD.Vector(0, 0, 1)
     if objects.type_of(obj) != objects.Load.TYPE:
         return up
