@@ -140,15 +140,17 @@ class RouteSearch {
 
   Route route_of(const BuiltModel& built, const Snapshot& rest, double length) const {
     const BeamRecord& beam = rest.beams.at(0);
-    const double stiffness = built.model.beams.at(0).properties.bending_stiffness;
+    const BeamProperties& properties = built.model.beams.at(0).properties;
+    // The model counts by its drawn length: EI and places are those of the unstressed one after this factor.
+    const double stretch = std::sqrt(1 + 2 * properties.free_strain.constant);
     // Reactions are those on the beam at its two clamps, in the order of the case.
     return {.name = request_.name,
             .curve = deformed_curve(beam.elements),
             .length = length,
             .drawn_length = beam.length,
             .distance = distance_of(request_),
-            .least_radius = stiffness / std::abs(beam.moment_max.value),
-            .least_radius_s = beam.moment_max.s,
+            .least_radius = stretch * properties.bending_stiffness / std::abs(beam.moment_max.value),
+            .least_radius_s = stretch * beam.moment_max.s,
             .largest_tension = std::max(0.0, beam.axial_force_max.value),
             .largest_thrust = std::max(0.0, -beam.axial_force_min.value),
             .sag = beam.sag,
