@@ -168,7 +168,7 @@ def test_hang_load_and_run(document, beam):
     expect("Cancel takes the quantity back", abs(load.Force.getValueAs("N").Value - 200) < 1e-9)
     analysis = objects.analysis_of(beam)
     analysis.AnalysisType = "Motion"
-    analysis.EndTime, analysis.Every = "1 s", "0.02 s"
+    analysis.EndTime, analysis.Every = "1 s", "0.025 s"
     beam.Elements = 16
     document.recompute()
     run_and_look(document, analysis)
@@ -180,6 +180,9 @@ def run_and_look(document, analysis):
 
     panel = panel_of(analysis)
     expect("the panel of the analysis opens", panel is not None)
+    expect(f"a time has all its digits: {panel.fields['Every'].text()}", panel.fields["Every"].text().replace(" ", "") == "0.025s")
+    panel.fields["Every"].setText("0.02 s")
+    expect("and is written", abs(analysis.Every.getValueAs("s").Value - 0.02) < 1e-12)
     ticks = []
     timer = QtCore.QTimer()
     timer.timeout.connect(lambda: ticks.append(1))

@@ -169,9 +169,9 @@ class Run(QtCore.QObject):
         document = self.analysis.Document
         document.openTransaction("Run")
         errors = [f.message for f in self.findings if f.severity == "error"]
-        texts = [line.message for line in self.lines if line.message and not line.severity]
+        texts = [line.message for line in self.lines if line.message and not line.severity and self.folder not in line.message]
         self.analysis.Status = {DONE: "Done", STOPPED: "Interrupted"}.get(code, "Failed")
-        self.analysis.Message = message or (errors[-1] if errors else texts[-1] if texts else "")
+        self.analysis.Message = message or (errors[-1] if errors else texts[0] if texts else "")
         if code in (DONE, STOPPED, NOT_CONVERGED):
             take_results(self.analysis, self.case.text, os.path.join(self.folder, "results"), self.findings)
         show_at_objects(self.analysis, self.findings)
