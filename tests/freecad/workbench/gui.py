@@ -1,5 +1,6 @@
 # Run by FreeCAD with a window, under the limits of `run`: commands, panels, a run with its progress, the slider, plots.
 # Pictures go to the folder NURBEAM_PICTURES; the last line of "gui_report" says whether all was as it should be.
+import faulthandler
 import math
 import os
 import tempfile
@@ -14,6 +15,7 @@ from PySide import QtCore, QtGui
 PICTURES = os.environ["NURBEAM_PICTURES"]
 report = open("gui_report", "w")
 problems = []
+faulthandler.dump_traceback_later(int(os.environ.get("NURBEAM_PATIENCE", "180")), exit=True, file=report)  # where it hangs
 
 
 def expect(what, condition):

@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from typing import Any, NamedTuple, Optional
@@ -66,15 +67,19 @@ class TooLong(RuntimeError):
 
 def run_program(arguments, problem, seconds):
     """What the command prints; its errors are raised as that problem, a time beyond the limit as TooLong."""
+    process = subprocess.Popen([program(), *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True, start_new_session=True)  # fmt: skip
     try:
-        done = subprocess.run([program(), *arguments], capture_output=True, text=True, timeout=seconds, stdin=subprocess.DEVNULL)
+        out, err = process.communicate(timeout=seconds)
     except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)  # also the reader of CAD files that it has started
+        process.communicate()
         raise TooLong(f"takes longer than {seconds:g} s") from None
-    if done.returncode != 0:
-        lines = [line_of(line) for line in done.stderr.splitlines()]
+    if process.returncode != 0:
+        lines = [line_of(line) for line in err.splitlines()]
         errors = [line.message for line in lines if line and line.severity == "error"]
-        raise problem("; ".join(errors) or done.stderr.strip() or f"the command has ended with {done.returncode}")
-    return done.stdout
+        raise problem("; ".join(errors) or err.strip() or f"the command has ended with {process.returncode}")
+    return out
 
 
 def line_of(text: str) -> Optional[Line]:
