@@ -63,6 +63,8 @@ def _content(sheet, column, row):
 
 def _unit(sheet, column, row):
     cell, content = _content(sheet, column, row)
+    if content == 1:
+        return "1"
     if not isinstance(content, str):
         raise BadTable(f"the cell {cell} of {sheet.Label} has a number; the first row has units, as s or mm; 1 for none")
     return content.strip()

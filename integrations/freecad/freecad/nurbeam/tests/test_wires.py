@@ -3,7 +3,7 @@
 import math
 
 import Part
-from FreeCAD import Vector
+from FreeCAD import Placement, Rotation, Vector
 
 from .. import objects
 from ..case.axes import axis_of
@@ -45,3 +45,45 @@ class Wires(DocumentTest):
         back = edges.spline_of_nurbs(axis_of(beam).nurbs)
         self.assertLess(there.StartPoint.distanceToPoint(back.EndPoint), 1e-12)
         self.assertAlmostEqual(there.length(), back.length(), 9)
+
+
+class Sketches(DocumentTest):
+    def sketch(self):
+        """Line, quarter circle, line, drawn in a sketch that stands upright and beside the origin."""
+        sketch = self.document.addObject("Sketcher::SketchObject", "Sketch")
+        sketch.Placement = Placement(Vector(5, 0, 0), Rotation(Vector(1, 0, 0), 90))
+        circle = Part.ArcOfCircle(Part.Circle(Vector(100, 50, 0), Vector(0, 0, 1), 50), -math.pi / 2, 0)
+        for piece in (Part.LineSegment(Vector(0, 0, 0), Vector(100, 0, 0)), circle, Part.LineSegment(Vector(150, 50, 0), Vector(150, 200, 0))):
+            sketch.addGeometry(piece)
+        self.document.recompute()
+        return sketch
+
+    def test_a_sketch_is_an_axis_as_a_whole_also_in_a_placed_part(self):
+        sketch = self.sketch()
+        beam = objects.make(objects.Beam, self.document)
+        beam.Axis = sketch
+        self.document.recompute()
+        self.assertAlmostEqual(beam.Length.Value, 250 + 25 * math.pi, 9)
+        part = self.document.addObject("App::Part", "Part")
+        part.addObject(sketch)
+        part.Placement.Base = Vector(0, 1000, 0)
+        beam.Axis = (part, [f"{sketch.Name}.Edge{i}" for i in (1, 2, 3)])
+        self.document.recompute()
+        self.assertAlmostEqual(beam.Length.Value, 250 + 25 * math.pi, 9)
+        points = axis_of(beam).nurbs["control_points"]
+        self.assertTrue(all(abs(point[1] - 1) < 1e-12 for point in points))
+        self.assertAlmostEqual(max(point[2] for point in points), 0.2, 12)
+
+    def test_a_sweep_along_a_sketch_is_a_pipe(self):
+        sketch = self.sketch()
+        ring = self.document.addObject("Part::Feature", "Ring")
+        ring.Shape = Part.Wire(Part.makeCircle(10, Vector(5, 0, 0), Vector(1, 0, 0)))
+        sweep = self.document.addObject("Part::Sweep", "Sweep")
+        sweep.Sections, sweep.Spine, sweep.Solid = [ring], (sketch, ["Edge1", "Edge2", "Edge3"]), True
+        self.document.recompute()
+        beam = objects.make(objects.Beam, self.document)
+        beam.Axis, beam.SectionKind = sweep, "Of the pipe"
+        self.document.recompute()
+        self.assertEqual(beam.State, ["Up-to-date"], beam.getStatusString())
+        self.assertAlmostEqual(beam.Length.Value, 250 + 25 * math.pi, 8)
+        self.assertAlmostEqual(1000 * axis_of(beam).radius, 10, 9)
