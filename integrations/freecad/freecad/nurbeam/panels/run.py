@@ -4,7 +4,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .. import objects
-from ..run.run_analysis import Finding, Run, check, start_run
+from ..run.run_analysis import Finding, Run, check, edited_documents, start_run
 from ..run.command import Missing
 from .parts import PartPanel
 
@@ -53,7 +53,6 @@ class RunPanel(PartPanel):
             self.phase.setText("Nothing is wrong.")
 
     def run(self):
-        self.document.commitTransaction()  # what was said until now; the run is a step of undo of its own
         run, findings = start_run(self.obj)
         self.show_findings(findings)
         if run:
@@ -61,6 +60,8 @@ class RunPanel(PartPanel):
         self._show_state()
 
     def _follow(self, run):
+        self.document.commitTransaction()  # what was said until now; the run is a step of undo of its own
+        edited_documents.discard(self.document.Name)
         self.process = run
         run.progressed.connect(self._show_progress)
         run.told.connect(lambda _: self.show_findings(run.findings))

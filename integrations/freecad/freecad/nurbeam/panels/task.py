@@ -3,6 +3,8 @@
 import FreeCADGui
 from PySide import QtGui
 
+from ..run.run_analysis import edited_documents
+
 
 class TaskPanel:
     """A panel of an object. OK keeps what was changed since it was opened, Cancel restores what was before."""
@@ -14,6 +16,7 @@ class TaskPanel:
         self.layout = QtGui.QVBoxLayout(self.form)
         if not self.document.HasPendingTransaction:
             self.document.openTransaction(f"Edit {obj.Label}")
+        edited_documents.add(self.document.Name)
         self.build()
 
     def build(self):
@@ -41,3 +44,4 @@ class TaskPanel:
     def leave(self):
         """Ends what the panel has begun, as picking."""
         FreeCADGui.Selection.removeSelectionGate()
+        edited_documents.discard(self.document.Name)

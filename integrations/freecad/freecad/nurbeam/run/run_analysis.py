@@ -14,6 +14,10 @@ from .command import LineReader, Missing, module, program
 from .results import take_results
 
 STOPPED, DONE, NOT_CONVERGED = 130, 0, 3
+WAIT_FOR_EDIT = 200  # ms
+
+edited_documents = set()
+"""Names of documents of which a panel is editing an object."""
 
 
 class Finding(tuple):
@@ -151,6 +155,11 @@ class Run(QtCore.QObject):
         self._end(-1 if crashed else code, "the command was killed or has died" if crashed else "")
 
     def _end(self, code, message):
+        """Keeps what the run has left. Where something is being edited it waits for that: else Cancel would take the results
+        with it, or find its own step of undo ended."""
+        if self._document_is_open() and self.key[0] in edited_documents:
+            QtCore.QTimer.singleShot(WAIT_FOR_EDIT, lambda: self._end(code, message))
+            return
         Run.running.pop(self.key, None)
         try:
             if self._document_is_open():
@@ -195,6 +204,7 @@ def start_run(analysis):
 
 def stop_runs_of(document):
     """Stops the runs of a document that is closed."""
+    edited_documents.discard(document.Name)
     for (name, _), run in list(Run.running.items()):
         if name == document.Name:
             run.kill()

@@ -143,6 +143,20 @@ class Runs(DocumentTest):
         self.document.undo()
         self.assertIsNone(objects.result_of(self.analysis))
 
+    def test_results_wait_while_something_is_edited(self):
+        self.document.UndoMode = 1
+        run = self.begin()
+        self.document.openTransaction("Edit")
+        run_analysis.edited_documents.add(self.document.Name)  # as a panel does
+        self.load.Force = "20 N"
+        self.assertFalse(run.wait(3))
+        self.document.abortTransaction()
+        run_analysis.edited_documents.clear()
+        self.assertTrue(run.wait(20))
+        self.assertEqual(self.load.Force.getValueAs("N").Value, 10)
+        self.assertEqual(self.analysis.Status, "Done")
+        self.assertIsNotNone(objects.result_of(self.analysis))
+
     def test_a_missing_command_is_told_with_the_package_that_has_it(self):
         from unittest import mock
 
