@@ -47,7 +47,7 @@ class Values(DocumentTest):
 
     def test_messages_lead_to_the_nearest_object(self):
         places = {"beams[0]": Place("beam", "Axis"), "beams[0].section.radius": Place("beam", "Radius")}
-        self.assertEqual(place_in_case("/tmp/case.json: beams[0].section.radius"), "beams[0].section.radius")
+        self.assertEqual(place_in_case("folder/case.json: beams[0].section.radius"), "beams[0].section.radius")
         self.assertEqual(object_at(places, "case.json: beams[0].section.radius").prop, "Radius")
         self.assertEqual(object_at(places, "case.json: beams[0].element.count").prop, "Axis")
         self.assertIsNone(object_at(places, "case.json: loads[0]"))
