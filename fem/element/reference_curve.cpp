@@ -68,6 +68,24 @@ ReferenceCurve::ReferenceCurve(std::vector<RationalCubic> segments, int dimensio
                                 text_of(gap) + " m");
 }
 
+ReferenceCurve ReferenceCurve::lengthened(double length, bool at_start) const {
+  const double s = at_start ? start() : end();
+  const Eigen::Vector3d from = at_start ? Eigen::Vector3d(position(s) - length * tangent(s)) : position(s),
+                        way = length * tangent(s, !at_start);
+  Eigen::Matrix<double, 4, 4> line;
+  for (int i = 0; i < 4; ++i) line.col(i) << from + i / 3.0 * way, 1;
+  const RationalCubic cubic(line);
+  ReferenceCurve curve = *this;
+  const auto insert = [&](auto& list, const auto& item) {
+    list.insert(at_start ? list.begin() : list.end(), item);
+  };
+  insert(curve.segments_, cubic);
+  insert(curve.maps_, std::make_shared<const ArcLengthMap>(cubic));
+  insert(curve.uniform_line_, uniform_line(cubic));
+  insert(curve.breaks_, at_start ? s - length : s + length);
+  return curve;
+}
+
 double ReferenceCurve::wrapped(double s) const {
   if (!closed_) return s;
   const double rest = s - length() * std::floor(s / length());

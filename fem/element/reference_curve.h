@@ -31,7 +31,8 @@ struct CurvePoint {
   Eigen::Vector3d position, tangent, curvature;  ///< [m], [-], [1/m]
 };
 
-/// The drawn, undeformed curve as a function of reference arc length s in [0, length]; immutable.
+/// The drawn, undeformed curve as a function of reference arc length s in [start, end]; immutable. The start is
+/// 0, but for a curve that was lengthened there.
 ///
 /// The curve is a chain of segments (rational cubics). Segment j covers [breaks()[j], breaks()[j+1]] and has
 /// its own parameter u in [0,1]. In a planar model (dimension 2) coordinates are the plane's, and kappa_0 is
@@ -55,6 +56,10 @@ class ReferenceCurve {
     curve.straight_ = true;
     return curve;
   }
+
+  /// The curve with a straight piece of this length [m] before its start or behind its end, along its tangent
+  /// there. Places keep their s. For open curves with their metric and without sections.
+  ReferenceCurve lengthened(double length, bool at_start) const;
 
   /// The curve with sections. Throws std::invalid_argument where they have no meaning (DrawnSections), in the
   /// plane and with Metric::label.
@@ -81,7 +86,10 @@ class ReferenceCurve {
   bool is_uniform_line(int j) const { return uniform_line_[j]; }
   /// segment_count() + 1 reference arc lengths [m].
   const std::vector<double>& breaks() const { return breaks_; }
-  double length() const { return breaks_.back(); }
+  double length() const { return breaks_.back() - breaks_.front(); }
+  /// Reference arc lengths of both ends [m].
+  double start() const { return breaks_.front(); }
+  double end() const { return breaks_.back(); }
   /// The place in [0, length) on a closed curve; else s itself.
   double wrapped(double s) const;
   /// The place within half a length of `near` on a closed curve; else s itself.

@@ -5,6 +5,7 @@
 #include "fem/forces/body_drag.h"
 #include "fem/forces/buffer_force.h"
 #include "fem/forces/custom_force.h"
+#include "fem/forces/field_force.h"
 #include "fem/forces/line_load.h"
 #include "fem/forces/line_torque.h"
 #include "fem/forces/moment.h"
@@ -15,6 +16,7 @@
 #include "fem/forces/roll_inertia.h"
 #include "fem/forces/sliding_friction.h"
 #include "fem/forces/spring.h"
+#include "fem/forces/stored_rope.h"
 #include "fem/structure/type_list.h"
 
 /// The lists of forces: a new force needs a change here and nowhere else outside its own file.
@@ -32,7 +34,8 @@ using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, C
 template <int D, class... Others>
 using ForceList =
     std::variant<PointMass<D>, BoundPlaceMass<D>, Spring<D>, BodyDrag<D>, BufferForce<D>, SlidingFriction<D>,
-                 PlaceDrive<D>, PointLoad, Moment, LineLoad, LineTorque, BoundCustomForce<D>, Others...>;
+                 PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, PointLoad, Moment, LineLoad,
+                 LineTorque, BoundCustomForce<D>, Others...>;
 template <int D>
 using BoundForce =
     std::conditional_t<D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll>,
@@ -51,7 +54,7 @@ static_assert(all_keep_offers<3>(static_cast<BoundForce<3>*>(nullptr)),
 /// are added up, before those of descriptions. Each source offers bind(binding, add).
 template <int D>
 using ForceSources = TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>,
-                              Spring<D>, PlaceDrive<D>>;
+                              Spring<D>, PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>>;
 
 /// A description in a mesh: itself, or its Bound<D>.
 template <int D, class Description>

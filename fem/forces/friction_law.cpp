@@ -81,7 +81,7 @@ std::pair<double, double> brake(const FrictionOfBody& body, const FrictionPoint&
 FrictionForce friction_force(const FrictionOfBody& body, const FrictionPoint& at,
                              const FrictionMemory& before) {
   const Friction& friction = *body.friction;
-  const double k = body.stiffness, d = body.damping, c = friction.viscous;
+  const double k = body.stiffness, d = body.damping, c = friction.viscous, c_2 = friction.quadratic;
   const double a = at.left.norm(), b = at.right.norm(), l = (a + b) / 2;
   const Eigen::Vector3d l_left = at.left / (2 * a), l_right = at.right / (2 * b);
   const double moved = at.s - before.s;
@@ -97,11 +97,12 @@ FrictionForce friction_force(const FrictionOfBody& body, const FrictionPoint& at
   const bool holds = before.slides == 0 && f.bound > 0 && std::abs(f.trial) <= f.bound;
   const int way = before.slides != 0 ? before.slides : f.trial > 0 ? 1 : -1;
   const double held = holds ? f.trial : f.bound > 0 ? way * f.bound : 0;
-  f.along = -held - c * l * at.rate;
+  const double viscous = c * l * at.rate, quadratic = c_2 * l * l * at.rate * std::abs(at.rate);
+  f.along = -held - viscous - quadratic;
   f.value = l * f.along;
-  f.by_rate = -c * l * l;
-  f.by_left = (f.along - c * l * at.rate) * l_left;
-  f.by_right = (f.along - c * l * at.rate) * l_right;
+  f.by_rate = -c * l * l - 2 * c_2 * l * l * l * std::abs(at.rate);
+  f.by_left = (f.along - viscous - 2 * quadratic) * l_left;
+  f.by_right = (f.along - viscous - 2 * quadratic) * l_right;
   if (holds) {
     f.by_s = -k * l * l;
     f.by_rate -= d * l * l;

@@ -19,13 +19,16 @@ typename BoundPlaceMass<D>::Vector BoundPlaceMass<D>::weight(const MeshedBeams<D
 template <int D>
 void BoundPlaceMass<D>::add_force(const MeshedBeams<D>& at, const State& state,
                                   Eigen::Ref<Eigen::VectorXd> dynamics) const {
-  dynamics.segment<D>(dofs_[0]) += mass_.mass * state.a.segment<D>(dofs_[0]) - state.load * weight(at);
+  dynamics.segment<D>(dofs_[0]) +=
+      mass_.mass * (state.a.segment<D>(dofs_[0]) - field_on_point<D>(at.structure, state, dofs_[0])) -
+      state.load * weight(at);
 }
 
 template <int D>
 void BoundPlaceMass<D>::add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const {
   sum.kinetic += mass_.mass * state.v.segment<D>(dofs_[0]).squaredNorm() / 2;
-  sum.gravity -= weight(at).dot(state.q.segment<D>(dofs_[0]));
+  sum.gravity += mass_.mass * field_potential<D>(at.structure, state, dofs_[0]) -
+                 weight(at).dot(state.q.segment<D>(dofs_[0]));
 }
 
 template class BoundPlaceMass<2>;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fem/forces/energy.h"
+#include "fem/forces/field_on_point.h"
 #include "fem/forces/force_offers.h"
 #include "fem/mesh/mesh_elements.h"
 
@@ -45,8 +46,9 @@ class BoundPlaceMass {
 
   void add_force(const MeshedBeams<D>& at, const State& state, Eigen::Ref<Eigen::VectorXd> dynamics) const;
   template <class Sink>
-  void add_tangent(const MeshedBeams<D>&, const State&, const TangentWeights& w, Sink&& sink) const {
-    const Eigen::Matrix<double, D, D> K = Vector::Constant(w.mass * mass_.mass).asDiagonal();
+  void add_tangent(const MeshedBeams<D>& at, const State& state, const TangentWeights& w, Sink&& sink) const {
+    Eigen::Matrix<double, D, D> K = mass_.mass * field_tangent<D>(at.structure, state, dofs_[0], w);
+    K.diagonal().array() += w.mass * mass_.mass;
     sink.own(K);
   }
   void add_energy(const MeshedBeams<D>& at, const State& state, SystemEnergy& sum) const;

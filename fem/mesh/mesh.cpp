@@ -130,14 +130,20 @@ int find_span(const Structure& structure, const Mesh& mesh, const Eigen::VectorX
   return static_cast<int>(found - spans);
 }
 
+std::array<int, 2> spans_at(const Mesh& mesh, int beam, int node) {
+  const int first = mesh.first_span[beam], count = mesh.first_span[beam + 1] - first;
+  const bool is_ring = count == static_cast<int>(mesh.nodes[beam].size());
+  if (is_ring) return {first + (node + count - 1) % count, first + node};
+  return {first + std::max(node - 1, 0), first + std::min(node, count - 1)};
+}
+
 bool is_arc_length_span(const Structure& structure, const Mesh& mesh, int index) {
   const MeshSpan& span = mesh.spans[index];
   const Beam& beam = structure.beams[span.beam];
-  const int first = mesh.first_span[span.beam], end = mesh.first_span[span.beam + 1];
-  const auto length = [&](int i) { return mesh.spans[i].s_b - mesh.spans[i].s_a; };
+  const auto length = [&](int i) { return i == index ? 0 : mesh.spans[i].s_b - mesh.spans[i].s_a; };
   double left = span.s_a, right = span.s_b;
-  if (span.place_a >= 0) left -= length(index > first ? index - 1 : end - 1);
-  if (span.place_b >= 0) right += length(index + 1 < end ? index + 1 : first);
+  if (span.place_a >= 0) left -= length(spans_at(mesh, span.beam, span.node_a)[0]);
+  if (span.place_b >= 0) right += length(spans_at(mesh, span.beam, span.node_b)[1]);
   return spans_break(beam, left, right);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "fem/mesh/mesh_plan.h"
@@ -64,6 +65,10 @@ Mesh make_mesh(const Structure& structure, MeshPlan plan);
 /// Index into mesh.spans of the span of a beam that holds s, for the coordinates q.
 /// At a node the span after it counts; at the end of an open beam the last span. A rigid guide has no spans.
 int find_span(const Structure& structure, const Mesh& mesh, const Eigen::VectorXd& q, int beam, double s);
+
+/// The spans before and behind a node of a beam; where the elements of the beam end there, both are the last
+/// one.
+std::array<int, 2> spans_at(const Mesh& mesh, int beam, int node);
 
 /// Whether a break of the drawing lies inside the span, or inside a span that shares a moving node with it:
 /// the element is then a plain cubic in arc length.

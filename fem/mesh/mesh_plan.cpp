@@ -23,6 +23,12 @@ int node_to_replace(const Beam& beam, double s) {
   return std::abs(at(nearest) - s) <= reach * gap ? beam.home_index(nearest) : -1;
 }
 
+// Takes out the home nodes that are on the reel of a rider, and one that is at its mouth.
+void store(const Beam& beam, const Rider& rider, std::vector<bool>& present) {
+  for (std::size_t h = 0; h < present.size(); ++h)
+    if (rider.reel->sense() * (beam.home[h].s - rider.s) <= 0) present[h] = false;
+}
+
 }  // namespace
 
 bool too_light_for_node(const Structure& structure, const Rider& rider) {
@@ -34,6 +40,7 @@ bool too_light_for_node(const Structure& structure, const Rider& rider) {
 }
 
 Passing passing(const Rider& rider, const HomeNode& node) {
+  if (rider.reel) return node.permanent ? Passing::gives_way : Passing::as_node;
   if (node.kind == NodeKind::kink) return Passing::as_point;
   if (!node.permanent) return Passing::as_node;
   const bool stays = rider.continuous_slope || node.hold != Hold::nothing || node.kept;
@@ -41,6 +48,7 @@ Passing passing(const Rider& rider, const HomeNode& node) {
 }
 
 bool near_as_point(const Structure& structure, const Rider& rider, double s, double reach) {
+  if (rider.reel) return false;
   const Beam& beam = structure.beam_of(rider);
   if (beam.rigid || rider.as_point || too_light_for_node(structure, rider)) return true;
   const int before = beam.home_interval(s);
@@ -58,13 +66,14 @@ MeshPlan initial_plan(const Structure& structure) {
   for (const Beam& beam : structure.beams) plan.beams.push_back({std::vector<bool>(beam.home.size(), true)});
   for (const Rider& rider : structure.riders) {
     const Beam& beam = structure.beam_of(rider);
-    const double from_end = std::min(rider.s, beam.curve.length() - rider.s);
-    const bool on_point = (!beam.is_ring() && from_end < end_zone * beam.home_spacing(rider.s)) ||
-                          near_as_point(structure, rider, rider.s, passing_zone);
+    const double from_end = std::min(rider.s - beam.curve.start(), beam.curve.end() - rider.s);
+    const bool near_end = !beam.is_ring() && !rider.reel && from_end < end_zone * beam.home_spacing(rider.s);
+    const bool on_point = near_end || near_as_point(structure, rider, rider.s, passing_zone);
     plan.modes.push_back(on_point ? Carried::point : Carried::node);
     plan.places.push_back(rider.s);
     plan.held.push_back(rider.release.has_value());
     if (on_point) continue;
+    if (rider.reel) store(beam, rider, plan.beams[rider.beam].present);
     const int replaced = node_to_replace(beam, rider.s);
     if (replaced >= 0) plan.beams[rider.beam].present[replaced] = false;
   }

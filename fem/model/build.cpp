@@ -194,6 +194,17 @@ Rider& ModelBuilder::lead_through(std::string name, int body, int beam, double s
   return ring_on(ring, beam, s);
 }
 
+Rider& ModelBuilder::wind_up(std::string name, int beam, double s, bool at_start) {
+  const Beam& wound = checked_beam(beam);
+  if (wound.is_ring() || wound.has_torsion())
+    refuse("beam \"" + wound.name + "\" is a ring or has torsion: no reel takes it in");
+  Rider& mouth = lead_through(std::move(name), wound.curve.position(s), beam, s);
+  mouth.continuous_slope = true;
+  mouth.rest = StaticPlace::held;
+  mouth.reel = Reel{.at_start = at_start};
+  return mouth;
+}
+
 int ModelBuilder::add_ring(std::string name, const Eigen::Vector3d& position) {
   model_.bodies.push_back({.name = std::move(name), .mass = 0, .position = position});
   return static_cast<int>(model_.bodies.size()) - 1;

@@ -21,7 +21,8 @@ struct Friction {
   TimeTable force = {};
   /// Rows (travel [m], F [N]) of a brake that goes by the distance from the start of the body; empty: none.
   TimeTable force_over = {};
-  double viscous = 0;  ///< force over sliding velocity [N s/m]
+  double viscous = 0;    ///< force over sliding velocity [N s/m]
+  double quadratic = 0;  ///< force over its square [N s^2/m^2]
   /// k [N/m]; default: EA/l of an element of the beam; on a guide that of a natural frequency of 100 Hz with
   /// the mass of the body.
   std::optional<double> stick_stiffness = {};

@@ -26,8 +26,43 @@ struct Clearance {
   std::vector<Eigen::Vector3d> profile;
 };
 
-/// What is measured of the shape of a model, along its gravity.
-using Measure = std::variant<PartSag, Clearance>;
+/// What a beam does at a ring: where it runs through an eyelet, or leaves a reel.
+struct AtRing {
+  enum class Quantity {
+    tension_before,  ///< of the beam on the side of its start [N]
+    tension_behind,  ///< on the side of its end [N]
+    wrap,            ///< angle by which the beam turns in it [rad]
+    axial_force,     ///< where it leaves a reel [N]
+    stored,          ///< reference length on a reel [m]
+    out,             ///< reference length between a reel and the other end of the beam [m]
+    rate,            ///< reference length that a reel pays out per second [m/s]
+    power            ///< by which the beam's force drives a reel that takes in [W]
+  };
+  std::string name;  ///< heads its column
+  int rider;
+  Quantity quantity;
+};
+
+/// What is measured of a model: shapes along its gravity, and beams at rings.
+using Measure = std::variant<PartSag, Clearance, AtRing>;
+
+/// Whether a quantity is of a reel, else of an eyelet.
+constexpr bool of_reel(AtRing::Quantity quantity) { return quantity >= AtRing::Quantity::axial_force; }
+
+/// Name and unit of a quantity.
+struct RingQuantity {
+  AtRing::Quantity quantity;
+  const char* name;
+  const char* unit;
+};
+inline constexpr RingQuantity ring_quantities[] = {{AtRing::Quantity::tension_before, "tension_before", "N"},
+                                                   {AtRing::Quantity::tension_behind, "tension_behind", "N"},
+                                                   {AtRing::Quantity::wrap, "wrap", "rad"},
+                                                   {AtRing::Quantity::axial_force, "axial_force", "N"},
+                                                   {AtRing::Quantity::stored, "stored", "m"},
+                                                   {AtRing::Quantity::out, "out", "m"},
+                                                   {AtRing::Quantity::rate, "rate", "m/s"},
+                                                   {AtRing::Quantity::power, "power", "W"}};
 
 inline const std::string& name_of(const Measure& measure) {
   return std::visit([](const auto& of) -> const std::string& { return of.name; }, measure);

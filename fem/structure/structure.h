@@ -8,7 +8,9 @@
 #include "fem/structure/beam.h"
 #include "fem/structure/connector.h"
 #include "fem/structure/friction.h"
+#include "fem/structure/mass_field.h"
 #include "fem/structure/place_motion.h"
+#include "fem/structure/reel.h"
 #include "fem/structure/stop.h"
 #include "fem/time_table.h"
 
@@ -54,7 +56,8 @@ struct Rider {
   bool as_point = false;  ///< carried as a point of a fixed mesh, at every place
   /// I/r^2 of a pulley that turns as the beam runs over it: inertia against a change of the place [kg]
   double turning_inertia = 0;
-  TimeTable drive_force = {};  ///< on the body towards greater s, from the beam [N]; empty: none
+  TimeTable drive_force = {};     ///< on the body towards greater s, from the beam [N]; empty: none
+  std::optional<Reel> reel = {};  ///< the rider is the mouth of a reel, always a node: the end of its beam
 
   bool is_offset() const { return follows_section && offset != Eigen::Vector2d::Zero(); }
   /// Whether a body carried as a node has coordinates besides those of the node: a constraint then ties both,
@@ -67,6 +70,7 @@ struct Structure {
   int dimension = 3;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s^2]
   Air air = {};
+  std::optional<MassField> field = {};  ///< what acts on mass besides gravity
   std::vector<Beam> beams;
   std::vector<Body> bodies;
   std::vector<Rider> riders;
@@ -75,6 +79,11 @@ struct Structure {
 
   const Beam& beam_of(const Rider& rider) const { return beams[rider.beam]; }
   const Body& body_of(const Rider& rider) const { return bodies[rider.body]; }
+  /// Reference length on the reel of a rider whose mouth is at s [m].
+  double stored_length(const Rider& rider, double s) const {
+    const ReferenceCurve& curve = beam_of(rider).curve;
+    return rider.reel->at_start ? s - curve.start() : curve.end() - s;
+  }
   /// Stiffness of the stick of a rider with friction [N/m].
   double stick_stiffness(const Rider& rider) const {
     const Beam& beam = beam_of(rider);

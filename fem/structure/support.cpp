@@ -9,9 +9,9 @@ std::string Support::reaction_name(const Structure& structure) const {
   if (!name.empty()) return name;
   const Beam& of = structure.beams[beam];
   const bool open = !of.is_ring();
-  const std::string at = open && s == 0                   ? ".start"
-                         : open && s == of.curve.length() ? ".end"
-                                                          : "@" + text_of(s);
+  const std::string at = open && s == of.curve.start() ? ".start"
+                         : open && s == of.curve.end() ? ".end"
+                                                       : "@" + text_of(s);
   return "reaction." + of.name + at;
 }
 

@@ -146,16 +146,15 @@ void start_moving(const BeamSystem& system, State& state) {
     const Rider& rider = model.riders[j];
     const double speed = rider.motion ? rider.motion->at(state.t).speed : rider.speed;
     const double s = state.q[at.place];
-    const int first = mesh.first_span[rider.beam], end = mesh.first_span[rider.beam + 1];
     const Eigen::VectorXd velocity = speed * point_ahead(system, state, rider.beam, s, speed).rs.head(D);
     state.v.segment(mesh.bodies[rider.body], D) = velocity;
     state.v[at.place] = speed;
     if (at.node < 0) continue;
-    const int index = first + at.node;
-    const MaterialPoint<3> right = material_point_in(system, state, index, s);
+    const auto [before, behind] = spans_at(mesh, rider.beam, at.node);
+    const MaterialPoint<3> right = material_point_in(system, state, behind, s);
     // The material is at rest, so the slopes at the moving node change only as the node moves along the
     // curve.
-    const MaterialPoint<3> left = material_point_in(system, state, (index > first ? index : end) - 1, s);
+    const MaterialPoint<3> left = material_point_in(system, state, before, s);
     const MeshNode& node = mesh.nodes[rider.beam][at.node];
     state.v.segment(node.r, D) = velocity;
     const bool shared = node.slope_left == node.slope_right;
@@ -163,7 +162,7 @@ void start_moving(const BeamSystem& system, State& state) {
         speed * (shared ? Eigen::Vector3d((left.rss + right.rss) / 2) : left.rss).head(D);
     if (!shared) state.v.segment(node.slope_right, D) = speed * right.rss.head(D);
     if (node.angle_left >= 0)
-      slide_sections(system, node, (index > first ? index : end) - 1, index, speed, state);
+      slide_sections(system, node, before, behind, speed, state);
   }
   State given = state;
   given.v = given_velocities(system, state);

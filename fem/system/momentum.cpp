@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "fem/mesh/widened.h"
@@ -190,6 +191,13 @@ void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
     const int place = to_->mesh().riders[j].place, before = from.mesh().riders[j].place;
     if (place >= 0 && before >= 0) kept_[place] += to_->model().riders[j].turning_inertia * state.v[before];
   }
+  for (const BoundForce<D>& force : old.forces())
+    std::visit(
+        [&](const auto& f) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(f)>, StoredRope<D>>)
+            f.add_momentum_in(to_->mesh(), state, kept_);
+        },
+        force);
   for (const BoundForce<D>& force : own.forces())
     std::visit(
         [&](const auto& f) {

@@ -151,18 +151,20 @@ bool has_tables(const CaseFile& read) {
   const auto any = [](const auto& list, const auto& has) {
     return std::any_of(list.begin(), list.end(), has);
   };
-  return !read.laws.empty() ||
-         any(read.beams, [](const CaseBeam& beam) { return beam.temperature.size() > 1; }) ||
-         any(read.loads, [](const CaseLoad& load) { return !load.time.empty() || load.moving_speed; }) ||
-         any(read.supports, [](const CaseSupport& s) { return !s.motion.empty() || s.motion_law; }) ||
-         any(read.sliding_joints,
-             [](const CaseSlidingJoint& joint) {
-               return joint.motion.is_given() || joint.motion_law ||
-                      (joint.friction && joint.friction->force.size() > 1);
-             }) ||
-         any(read.eyelets, [](const CaseEyelet& eyelet) {
-           return eyelet.motion.is_given() || !eyelet.moves.empty() || eyelet.force.size() > 1;
-         });
+  return !read.laws.empty() || any(read.beams, [](const CaseBeam& beam) {
+    return beam.temperature.size() > 1;
+  }) || any(read.loads, [](const CaseLoad& load) {
+    return !load.time.empty() || load.moving_speed;
+  }) || any(read.supports, [](const CaseSupport& s) {
+    return !s.motion.empty() || s.motion_law;
+  }) || any(read.sliding_joints, [](const CaseSlidingJoint& joint) {
+    return joint.motion.is_given() || joint.motion_law ||
+           (joint.friction && joint.friction->force.size() > 1);
+  }) || any(read.eyelets, [](const CaseEyelet& eyelet) {
+    return eyelet.motion.is_given() || !eyelet.moves.empty() || eyelet.force.size() > 1;
+  }) || any(read.reels, [](const CaseReel& reel) {
+    return reel.motion.is_given() || !reel.moves.empty() || reel.force.size() > 1;
+  });
 }
 
 }  // namespace nurbeam

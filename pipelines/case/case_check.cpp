@@ -80,7 +80,7 @@ bool fits_json_type(const Shape& shape, const Json& value) {
     case Kind::object:
       return value.is_object();
     case Kind::array:
-      return value.is_array();
+    case Kind::vector:
     case Kind::table:
       return value.is_array();
     case Kind::integer:

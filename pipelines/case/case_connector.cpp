@@ -100,12 +100,13 @@ void check_body(const CaseBody& body, const CaseFile& c, Findings& findings) {
       [&](const CaseConnector& connector) {
         return connector.ends[0].body == body.name || connector.ends[1].body == body.name;
       });
-  const bool carries_eyelet =
-      std::ranges::any_of(c.eyelets, [&](const CaseEyelet& eyelet) { return eyelet.on == body.name; });
-  if (joints.empty() && !connected && !carries_eyelet)
+  const auto is_on_body = [&](const auto& carried) { return carried.on == body.name; };
+  const bool carries_ring =
+      std::ranges::any_of(c.eyelets, is_on_body) || std::ranges::any_of(c.reels, is_on_body);
+  if (joints.empty() && !connected && !carries_ring)
     findings.error(body.path, "no sliding joint and no connector holds the body " + in_quotes(body.name) +
                                   "; add one to \"sliding_joints\" or \"connectors\", or remove the body");
-  else if (joints.empty() && !carries_eyelet && !body.position)
+  else if (joints.empty() && !carries_ring && !body.position)
     findings.error(body.path, "the body " + in_quotes(body.name) +
                                   " slides on no beam, so that nothing says where it starts; give its "
                                   "\"position\"");

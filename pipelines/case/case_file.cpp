@@ -62,9 +62,10 @@ void check_friction(const Friction& friction, const Json& json, const std::strin
                        text_of(friction.coefficient) + "; a body that sticks is held at least as well");
   const auto is_given = [&](const char* key) { return json.contains(key); };  // be it wrong
   if (!is_given("coefficient") && !is_given("static") && !is_given("force") && !is_given("force_over") &&
-      !is_given("viscous"))
-    findings.error(
-        path, "resists nothing; give \"coefficient\", \"static\", \"force\", \"force_over\" or \"viscous\"");
+      !is_given("viscous") && !is_given("quadratic"))
+    findings.error(path,
+                   "resists nothing; give \"coefficient\", \"static\", \"force\", \"force_over\", "
+                   "\"viscous\" or \"quadratic\"");
 }
 
 CaseSlidingJoint read_sliding_joint(const Json& json, const std::string& path, Findings& findings) {
@@ -95,6 +96,31 @@ CaseEyelet read_eyelet(const Json& json, const std::string& path, Findings& find
   return eyelet;
 }
 
+CaseReel read_reel(const Json& json, const std::string& path, Findings& findings) {
+  CaseReel reel = read_item(reel_fields(), json, path, findings);
+  if (reel.friction) {
+    check_friction(*reel.friction, json["friction"], child(path, "friction"), findings);
+    if (reel.friction->law != Friction::Law::bearing)
+      findings.error(child(path, "friction.law"),
+                     "is not \"bearing\", the only law for a reel, over which nothing wraps; leave it out");
+  }
+  const bool is_spool = reel.feed == Reel::Feed::spool;
+  if (reel.pickup && !is_spool)
+    findings.error(child(path, "pickup"), "is of a spool; give \"feed\": \"spool\", or leave it out");
+  if (is_spool && reel.inertia > 0)
+    findings.error(child(path, "inertia"),
+                   "is of a drum, and a spool does not turn; give \"feed\": \"drum\", or leave it out");
+  const auto takes_in = [&](const auto& row) { return row.second < 0; };
+  if (is_spool && ((reel.motion.speed && *reel.motion.speed < 0) ||
+                   std::adjacent_find(reel.motion.table.begin(), reel.motion.table.end(),
+                                      [](const auto& a, const auto& b) { return b.second < a.second; }) !=
+                       reel.motion.table.end() ||
+                   std::any_of(reel.motion.table.begin(), reel.motion.table.end(), takes_in)))
+    findings.error(child(path, "motion"),
+                   "takes rope in, which a spool cannot; pay out alone, or give \"feed\": \"drum\"");
+  return reel;
+}
+
 CaseStop read_stop(const Json& json, const std::string& path, Findings& findings) {
   CaseStop stop = read_item(stop_fields(), json, path, findings);
   if (!stop.at && stop.bodies.size() != 2)
@@ -115,11 +141,42 @@ CaseBody read_body(const Json& json, const std::string& path, bool has_air, Find
   return read_item(body_fields(), json, path, findings);
 }
 
+// Whether gravity pulls towards a point.
+bool has_attraction(const Json& json) { return has(json, "gravity") && json["gravity"].is_object(); }
+
+// What acts on mass besides even gravity.
+std::optional<MassField> read_field(const Json& json, Findings& findings) {
+  const Json &frame = part(json, "frame"), &gravity = part(json, "gravity");
+  if (!has(json, "frame") && !has_attraction(json)) return {};
+  MassField field;
+  field.rate = vector(frame, "rate", field.rate);
+  field.about = vector(frame, "about", field.about);
+  if (has_attraction(json)) {
+    field.attraction = number(gravity, "mu", 0);
+    field.centre = vector(gravity, "centre", field.centre);
+  }
+  if (!has(frame, "gravity_gradient")) return field;
+  const std::string path = "frame.gravity_gradient";
+  const Eigen::Vector3d radial = vector(part(frame, "gravity_gradient"), "radial", Eigen::Vector3d::Zero());
+  if (!(radial.norm() > 0) || std::abs(radial.normalized().dot(field.rate)) > 1e-9 * field.rate.norm())
+    findings.error(path + ".radial",
+                   "is " + text_of(radial) +
+                       "; must be a direction across the \"rate\", as an orbit lies across its "
+                       "axis");
+  else
+    field.radial = radial.normalized();
+  if (!has(json, "gravity") || has_attraction(json) || !vector(json, "gravity", radial).isZero(0))
+    findings.error(path, "has the gravity of what is orbited; give \"gravity\": [0, 0, 0] besides");
+  return field;
+}
+
 CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings& findings) {
   CaseFile result;
   result.path = file;
   result.name = text(json, "name", file.stem().string());
-  result.gravity = vector(json, "gravity", result.gravity);
+  result.gravity = has_attraction(json) ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                                        : vector(json, "gravity", result.gravity);
+  result.field = read_field(json, findings);
   result.air = {number(part(json, "air"), "density", 0),
                 vector(part(json, "air"), "wind", Eigen::Vector3d::Zero())};
   const std::filesystem::path directory = std::filesystem::absolute(file).parent_path();
@@ -142,6 +199,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   read_all("supports", result.supports, read_support);
   read_all("sliding_joints", result.sliding_joints, read_sliding_joint);
   read_all("eyelets", result.eyelets, read_eyelet);
+  read_all("reels", result.reels, read_reel);
   read_all("stops", result.stops, read_stop);
   read_all("joints", result.joints, read_beam_joint);
   read_all("connectors", result.connectors, read_connector);

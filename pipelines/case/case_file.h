@@ -24,6 +24,7 @@
 #include "pipelines/case/parts/body.h"
 #include "pipelines/case/parts/connector.h"
 #include "pipelines/case/parts/eyelet.h"
+#include "pipelines/case/parts/reel.h"
 #include "pipelines/case/parts/load.h"
 #include "pipelines/case/parts/output.h"
 #include "pipelines/case/parts/probe.h"
@@ -55,12 +56,14 @@ struct CaseFile {
   std::string name;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);
   Air air = {};
+  std::optional<MassField> field = {};  ///< of a frame that turns, or of a point that attracts
   std::vector<CaseBeam> beams;
   std::vector<CaseBody> bodies;
   std::vector<CaseLoad> loads;
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
   std::vector<CaseEyelet> eyelets;
+  std::vector<CaseReel> reels;
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseConnector> connectors;

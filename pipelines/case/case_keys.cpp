@@ -20,6 +20,24 @@ Shape air() {
                   "velocity of the air, everywhere alike; still when omitted"}});
 }
 
+Shape attraction() {
+  return object({{"mu", quantity(Dimension::number, positive()),
+                  "its gravitational parameter, in m^3/s^2: 3.986004e14 for the Earth", required},
+                 {"centre", vector(Dimension::length, plausible(-1e12, 1e12)), "where it is", required}});
+}
+
+Shape frame() {
+  return object(
+      {{"rate", vector(Dimension::angular_speed, plausible(-1e6, 1e6)),
+        "its angular velocity, constant: centrifugal and Coriolis forces act on all mass", required},
+       {"about", point(), "a point of the axis about which it turns; the origin when omitted"},
+       {"gravity_gradient",
+        object({{"radial", vector(Dimension::number), "away from what is orbited, across the `rate`",
+                 required}}),
+        "the frame is on a circular orbit, with `about` on the orbit: less is attracted what is farther out; "
+        "needs `gravity` [0, 0, 0]"}});
+}
+
 }  // namespace
 
 bool Range::contains(double value) const {
@@ -45,8 +63,9 @@ const Shape& case_keys() {
               {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
                "version of the case-file format", required},
               {"name", any_text(), "title of the case; the file's name when omitted"},
-              {"gravity", vector(Dimension::acceleration, plausible(-1e6, 1e6)),
-               "acceleration of gravity; [0, 0, -9.81] when omitted"},
+              {"gravity", either(vector(Dimension::acceleration, plausible(-1e6, 1e6)), attraction()),
+               "acceleration of gravity, or what attracts towards a point; [0, 0, -9.81] when omitted"},
+              {"frame", frame(), "in which all is told, where that turns; it stands when omitted"},
               {"air", air(), "what drags on bodies with a `drag_area`; none when omitted"},
               {"beams", array(beam_fields().shape(), 1), "the beams", required},
               {"bodies", array(body_fields().shape()),
@@ -55,6 +74,7 @@ const Shape& case_keys() {
               {"supports", array(support_fields().shape()), "where beams are held"},
               {"sliding_joints", array(sliding_joint_fields().shape()), "which body slides on which beam"},
               {"eyelets", array(eyelet_fields().shape()), "rings and pulleys that beams run through"},
+              {"reels", array(reel_fields().shape()), "drums and spools at ends of beams"},
               {"stops", array(stop_fields().shape()), "what sliding bodies come up against"},
               {"joints", array(beam_joint_fields().shape()), "which beams are joined to each other"},
               {"connectors", short_array(connector_fields().shape()),

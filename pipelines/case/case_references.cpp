@@ -42,8 +42,9 @@ void check_names(const Json& json, Findings& findings) {
   const auto probes = collect(part(json, "output"), "probes", "output"),
              clearances = collect(part(json, "output"), "clearances", "output");
   const auto supports = collect(json, "supports", ""), joints = collect(json, "joints", "");
-  const auto connectors = collect(json, "connectors", ""), eyelets = collect(json, "eyelets", "");
-  for (const auto& more : {probes, clearances, supports, joints, connectors, eyelets})
+  const auto connectors = collect(json, "connectors", ""), eyelets = collect(json, "eyelets", ""),
+             reels = collect(json, "reels", "");
+  for (const auto& more : {probes, clearances, supports, joints, connectors, eyelets, reels})
     columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
   // The columns of a vector belong to the body: "B.joint_force.x".
@@ -120,7 +121,8 @@ void check_references(const Json& json, Findings& findings) {
     check_references(json, json, "loads", "", "beam", *beams, findings);
     check_references(json, json, "supports", "", "beam", *beams, findings);
     check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
-    check_references(json, json, "eyelets", "", "beam", *beams, findings);
+    for (const char* key : {"eyelets", "reels"})
+      check_references(json, json, key, "", "beam", *beams, findings);
     for_each_item(json, "bodies", "", [&](const Json& body, const std::string& path) {
       const std::string name = text(part(body, "fastened"), "beam");
       if (!name.empty() && !is_one_of(name, *beams) && !is_beam_of_chain(name, json))
@@ -141,11 +143,13 @@ void check_references(const Json& json, Findings& findings) {
   }
   if (const auto bodies = names_under(json, "bodies")) {
     check_references(json, json, "sliding_joints", "", "body", *bodies, findings);
-    for_each_item(json, "eyelets", "", [&](const Json& eyelet, const std::string& path) {
-      const std::string name = text(eyelet, "on");
-      if (!name.empty() && !is_one_of(name, *bodies))
-        findings.error(child(path, "on"), "there is no body " + in_quotes(name) + known_names(name, *bodies));
-    });
+    for (const char* key : {"eyelets", "reels"})
+      for_each_item(json, key, "", [&](const Json& carried, const std::string& path) {
+        const std::string name = text(carried, "on");
+        if (!name.empty() && !is_one_of(name, *bodies))
+          findings.error(child(path, "on"),
+                         "there is no body " + in_quotes(name) + known_names(name, *bodies));
+      });
     check_connector_ends(json, "body", *bodies, findings);
     for_each_item(json, "stops", "", [&](const Json& stop, const std::string& path) {
       for_each_item(stop, "bodies", path, [&](const Json& name, const std::string& name_path) {

@@ -133,6 +133,8 @@ DimensionInfo info(Dimension dimension) {
       return {"stiffness", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, MN/m, lbf/in"};
     case Dimension::damping:
       return {"damping", "N s/m", {0, 1, -1}, "N s/m, kN s/m, N s/mm, lbf s/in"};
+    case Dimension::drag:
+      return {"force over speed squared", "N s^2/m^2", {-1, 1, 0}, "N s^2/m^2, kN s^2/m^2, kg/m"};
     case Dimension::angle:
       return {"angle", "degrees", {0, 0, 0}, "deg, rad, mrad, rev", pi, 180};
   }

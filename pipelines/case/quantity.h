@@ -28,6 +28,7 @@ enum class Dimension {
   rate,
   stiffness,
   damping,
+  drag,
   angle
 };
 

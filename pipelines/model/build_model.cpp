@@ -30,6 +30,7 @@
 #include "pipelines/model/loads.h"
 #include "pipelines/model/measures.h"
 #include "pipelines/model/pipe_bends.h"
+#include "pipelines/model/reels.h"
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
 #include "pipelines/model/supports.h"
@@ -83,6 +84,13 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   for (const CaseEyelet& eyelet : resolved.eyelets) {
     if (eyelet.position) forces.push_back(*eyelet.position - origin);
     for (const auto& [time, place] : eyelet.moves) forces.push_back(place - origin);
+  }
+  for (const CaseReel& reel : resolved.reels)
+    for (const auto& [time, place] : reel.moves) forces.push_back(place - origin);
+  if (resolved.field) {
+    moments.push_back(resolved.field->rate);
+    if (resolved.field->attraction > 0) forces.push_back(resolved.field->centre - origin);
+    if (resolved.field->radial) forces.push_back(*resolved.field->radial);
   }
   for (const CaseLaw& law : resolved.laws)
     if (law.spatial)
@@ -351,6 +359,7 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     from.torsion = from.torsion || uneven;
     Beam beam = beam_of(resolved, from, drawn->curve, *section, built.frame, findings);
     beam.bends = pipe_bends(from, beam, built.frame, findings);
+    lengthen_for_reels(resolved, from, beam, findings);
     built.model.beams.push_back(std::move(beam));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     if (built.frame.dimension == 3)
@@ -364,6 +373,35 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     beams.push_back(*drawn);
   }
   return beams;
+}
+
+// What acts on mass, in the model's own axes.
+MassField field_in(MassField field, const ModelFrame& frame) {
+  field.rate = frame.moment_to_local(field.rate);
+  field.about = frame.to_local(field.about);
+  field.centre = frame.to_local(field.centre);
+  if (field.radial) field.radial = frame.direction_to_local(*field.radial);
+  return field;
+}
+
+void check_field(const ResolvedCase& resolved, Findings& findings) {
+  const bool turns = !resolved.field->rate.isZero(0);
+  const std::string key = turns ? "frame" : "gravity";
+  if (resolved.analysis.has_modes())
+    findings.error("analysis.type",
+                   "looks for modes or buckling, which are not known in a frame that turns and "
+                   "near a point that attracts; leave \"" +
+                       key + "\" out, or run a motion");
+  for (const CaseBeam& beam : resolved.beams)
+    if (beam.torsion)
+      findings.error(beam.path + ".torsion",
+                     "is true, but the sections of a beam with torsion do not feel \"" + key +
+                         "\"; give \"torsion\": false, or leave \"" + key + "\" out");
+  constexpr double far = 1e6;  // [m]
+  if (!turns && resolved.field->centre.norm() > far)
+    findings.warn("gravity.centre", "is " + text_of(resolved.field->centre.norm(), 3) +
+                                        " m away: positions lose so many digits that strains are round-off; "
+                                        "tell all in a \"frame\" that goes round with it");
 }
 
 // Adds supports and elements. Per beam the places that need a node, in reference arc length [m].
@@ -382,8 +420,9 @@ std::vector<std::vector<double>> divide_beams(const ResolvedCase& resolved,
     for (const double s : connector_places(resolved, static_cast<int>(b), beams[b], findings))
       if (std::none_of(held.begin(), held.end(), [&](double t) { return std::abs(t - s) <= same; }))
         held.push_back(s);
-    built.model.beams[b].home =
-        divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), built.frame, findings);
+    built.model.beams[b].home = with_stored_nodes(
+        divide_beam(from, beams[b], held, resolved.sliding_bodies(from.name), built.frame, findings),
+        built.model.beams[b].curve);
   }
   return places;
 }
@@ -443,6 +482,10 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.model.dimension = built.frame.dimension;
   built.model.gravity = built.frame.direction_to_local(resolved.gravity);
   built.model.air = {resolved.air.density, built.frame.direction_to_local(resolved.air.wind)};
+  if (resolved.field) {
+    check_field(resolved, findings);
+    built.model.field = field_in(*resolved.field, built.frame);
+  }
   const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, like, built, findings);
   if (findings.has_errors()) return {};
 
@@ -462,6 +505,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   add_loads(resolved, beams, built.frame, built.model, built.loads, findings);
   add_sliding_joints(resolved, beams, joined, built.frame, built.model, built.motions, findings);
   if (!findings.has_errors()) add_eyelets(resolved, beams, built.frame, built.model, findings);
+  if (!findings.has_errors()) add_reels(resolved, beams, held, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};

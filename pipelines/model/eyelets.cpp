@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <string>
 
-#include "fem/mesh/drawn_coordinates.h"
 #include "fem/motion/events/friction_modes.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/model/place_motions.h"
+#include "pipelines/model/rings.h"
 
 namespace nurbeam {
 
@@ -48,44 +47,6 @@ void check_place(const CaseEyelet& eyelet, double away, const CaseAnalysis& anal
   else
     findings.error(eyelet.path + ".position",
                    "is " + text_of(away) + where + cure + ", or leave the \"position\" out");
-}
-
-// The place of an eyelet's ring over time, from its position on.
-std::optional<DisplacementTable> motion_of(const CaseEyelet& eyelet, const Eigen::Vector3d& position,
-                                           const ModelFrame& frame) {
-  if (eyelet.moves.empty()) return {};
-  std::vector<DisplacementTable::Row> rows;
-  for (const auto& [time, place] : eyelet.moves) rows.emplace_back(time, frame.to_local(place) - position);
-  return DisplacementTable(rows);
-}
-
-// Where an eyelet's ring is at the start: where it is put, its path begins, or its beam is drawn.
-Eigen::Vector3d start_of(const CaseEyelet& eyelet, const ModelFrame& frame, const Eigen::Vector3d& drawn) {
-  if (eyelet.position) return frame.to_local(*eyelet.position);
-  if (eyelet.moves.empty()) return drawn;
-  std::vector<DisplacementTable::Row> rows;
-  for (const auto& [time, place] : eyelet.moves) rows.emplace_back(time, frame.to_local(place));
-  return DisplacementTable(rows).at(0).value;
-}
-
-// A body that carries eyelets and slides nowhere is where the first of them is drawn, or where it is put.
-void place_carrier(const ResolvedCase& resolved, const Eigen::Vector3d& drawn, std::set<int>& placed,
-                   int carrier, BeamModel& model) {
-  const std::string& name = model.bodies[carrier].name;
-  const bool slides = std::ranges::any_of(resolved.sliding_joints,
-                                          [&](const CaseSlidingJoint& joint) { return joint.body == name; });
-  if (slides || resolved.bodies[carrier].position || !placed.insert(carrier).second) return;
-  model.bodies[carrier].position = drawn;
-}
-
-// A stick is as stiff as an element: what has no mass has no frequency to give it.
-std::optional<Friction> friction_of(const CaseEyelet& eyelet, const CaseAnalysis& analysis,
-                                    const Beam& beam) {
-  if (!eyelet.friction || analysis.has_modes()) return {};
-  Friction friction = *eyelet.friction;
-  if (!friction.stick_stiffness)
-    friction.stick_stiffness = beam.properties.axial_stiffness * beam.home_intervals() / beam.curve.length();
-  return friction;
 }
 
 // Puts an eyelet near a corner of the drawing exactly there.
@@ -133,10 +94,10 @@ void check_corners(const CaseBeam& from, int b, const DrawnBeam& beam, const Bea
 void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
                  BeamModel& model, Findings& findings) {
   const CaseAnalysis& analysis = resolved.analysis;
+  Rings rings(resolved, frame, model);
   if (!resolved.eyelets.empty() && analysis.is_explicit())
     findings.error("analysis.integrator.type",
                    "is \"rk4\", which is not for eyelets; use \"generalized-alpha\" or \"radau\"");
-  std::set<int> placed;
   for (const CaseEyelet& eyelet : resolved.eyelets) {
     const int b = resolved.beam_index(eyelet.beam);
     if (model.beams[b].rigid) {
@@ -153,7 +114,7 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
                 .continuous_slope = eyelet.continuous_slope,
                 .leave_at_end = eyelet.leave_at_end,
                 .rest = eyelet.rest,
-                .friction = friction_of(eyelet, analysis, model.beams[b]),
+                .friction = ring_friction(eyelet.friction, analysis, model.beams[b]),
                 .turning_inertia = eyelet.inertia,
                 .drive_force = eyelet.force};
     stand_at_corner(beams[b], rider);
@@ -166,17 +127,10 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
                                     .s = rider.s,
                                     .from_start = true},
                                    analysis.end_time, findings);
-    const int carrier = eyelet.on.empty() ? -1 : resolved.body_index(eyelet.on);
-    if (carrier >= 0) place_carrier(resolved, drawn, placed, carrier, model);
-    const Eigen::Vector3d position =
-        carrier >= 0 ? drawn_place(model, Grip::on_body(carrier)) : start_of(eyelet, frame, drawn);
-    check_place(eyelet, (position - drawn).norm(), analysis, model.beams[b].curve.length(), findings);
+    const Rings::Place ring = rings.place_of({eyelet.on, eyelet.position, eyelet.moves}, drawn);
+    check_place(eyelet, (ring.position - drawn).norm(), analysis, model.beams[b].curve.length(), findings);
     check_apart(eyelet, rider, model, findings);
-    model.bodies.push_back({.name = eyelet.name, .mass = 0, .position = drawn});
-    if (carrier >= 0)
-      model.constraints.push_back(CarriedBody{rider.body, carrier});
-    else
-      model.constraints.push_back(HeldBody{rider.body, position, motion_of(eyelet, position, frame)});
+    rings.add(eyelet.name, drawn, ring);
     model.riders.push_back(rider);
   }
   for (std::size_t b = 0; b < beams.size(); ++b)

@@ -106,6 +106,17 @@ void add_clearance(const ResolvedCase& resolved, const CaseClearance& clearance,
   model.measures.push_back(Clearance{clearance.name + ".clearance", b, points_of(curve, frame)});
 }
 
+// What each eyelet or reel tells of the beam in it.
+void add_rings(BeamModel& model) {
+  for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
+    const Rider& rider = model.riders[j];
+    if (model.body_of(rider).mass != 0) continue;
+    for (const RingQuantity& of : ring_quantities)
+      if (rider.reel.has_value() == of_reel(of.quantity))
+        model.measures.push_back(AtRing{model.body_of(rider).name + "." + of.name, j, of.quantity});
+  }
+}
+
 }  // namespace
 
 void add_measures(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
@@ -113,6 +124,7 @@ void add_measures(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
   for (int b = 0; b < static_cast<int>(beams.size()); ++b)
     if (!model.beams[b].rigid)
       add_sags(model.beams[b], b, held_places(resolved, beams, b, model, findings), model);
+  add_rings(model);
   for (const CaseClearance& clearance : resolved.clearances)
     add_clearance(resolved, clearance, frame, files, model, findings);
 }

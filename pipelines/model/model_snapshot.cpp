@@ -67,8 +67,11 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
   SnapshotNames names;
   for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
   for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
-  for (const Rider& joint : built.model.riders) names.friction = names.friction || joint.friction;
-  names.springs = names.friction;
+  for (const Rider& rider : built.model.riders) {
+    const bool is_driven = !rider.drive_force.empty() || (rider.reel && rider.motion);
+    names.friction = names.friction || rider.friction || is_driven;
+    names.springs = names.springs || rider.friction || (rider.reel && rider.reel->strain_energy > 0);
+  }
   for (const Stop& stop : built.model.stops) names.springs = names.springs || stop.buffer;
   names.springs = names.springs || !built.model.connectors.empty();
   for (const Beam& beam : built.model.beams) {

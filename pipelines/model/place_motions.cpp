@@ -55,32 +55,45 @@ void check_motion(const CasePlaceMotion& from, const MovedPlace& place, const Ro
                                  " m/s: give it more time");
     }
     if (place.curve->closed()) continue;  // as often around as it says
-    if (!(s >= -same_place * L && s <= L * (1 + same_place)))
+    if (!(s >= place.low - same_place * L && s <= place.high + same_place * L))
       findings.error(path, text_of(row) + " m is not on beam \"" + place.beam + "\", which is " + text_of(L) +
-                               " m long; must be between " + text_of(-origin) + " and " +
-                               text_of(L - origin) + " m");
+                               " m long; must be between " + text_of(place.low - origin) + " and " +
+                               text_of(place.high - origin) + " m");
   }
 }
 
-// The motion at a constant speed from s, to the end of the beam or for twice as long as the analysis: with it
-// the place would stand still at its end.
-TimeTable steady_motion(double s, double speed, const ReferenceCurve& curve, double end_time) {
-  const double end = curve.closed() ? s + speed * 2 * end_time : speed > 0 ? curve.length() : 0;
+// The motion at a constant speed, to where it must end or for twice as long as the analysis: with it the place
+// would stand still at its end. The speed is reached evenly within the ramp.
+TimeTable steady_motion(const CasePlaceMotion& motion, const MovedPlace& place, double end_time) {
+  const double speed = *motion.speed, s = place.s, ramp = motion.ramp;
+  const double end = place.curve->closed() ? s + speed * (2 * end_time + ramp)
+                     : speed > 0           ? place.high
+                                           : place.low;
   if (speed == 0 || end == s) return {{0, s}, {1, s}};
-  return {{0, s}, {(end - s) / speed, end}};
+  const double way = (end - s) / speed;  // as a time at this speed
+  if (ramp == 0) return {{0, s}, {way, end}};
+  constexpr int parts = 32;
+  TimeTable rows;
+  for (int i = 0; i <= parts; ++i) {
+    const double t = ramp * i / parts, covered = t * t / (2 * ramp);
+    if (covered >= way) break;
+    rows.emplace_back(t, s + speed * covered);
+  }
+  rows.emplace_back(ramp / 2 > way ? std::sqrt(2 * ramp * way) : way + ramp / 2, end);
+  return rows;
 }
 
 }  // namespace
 
 std::optional<PlaceMotion> place_motion_of(const CasePlaceMotion& motion, const MovedPlace& place,
                                            double end_time, Findings& findings) {
-  if (motion.speed) return steady_motion(place.s, *motion.speed, *place.curve, end_time);
+  if (motion.speed) return PlaceMotion(steady_motion(motion, place, end_time));
   if (motion.table.empty()) return {};
   TimeTable rows = motion.table;
   if (place.from_start)
     for (auto& [time, s] : rows) s += place.s;
   PlaceMotion moved(std::move(rows), motion.join,
-                    place.curve->closed() ? RowCurve::unbounded : std::pair(0.0, place.curve->length()));
+                    place.curve->closed() ? RowCurve::unbounded : std::pair(place.low, place.high));
   note_jumps(motion, place, *moved.rows(), findings);
   check_motion(motion, place, *moved.rows(), findings);
   return moved;

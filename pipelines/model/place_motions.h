@@ -16,6 +16,8 @@ struct MovedPlace {
   const ReferenceCurve* curve;
   double s;                 ///< where it is at the start [m]
   bool from_start = false;  ///< the rows count from there on; else they are reference arc lengths
+  /// Where it can be, of an open curve [m].
+  double low = curve->start(), high = curve->end();
 };
 
 /// The prescribed motion of a place in reference arc length; none where none is given. An error where it does

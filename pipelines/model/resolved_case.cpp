@@ -185,6 +185,7 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
   };
   each_needs_one(resolved.sliding_joints);
   each_needs_one(resolved.eyelets);
+  each_needs_one(resolved.reels);
   each_needs_one(resolved.stops);
   for (const CaseBeamJoint& joint : resolved.joints)
     for (const std::string& name : joint.beams)
@@ -201,11 +202,13 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
 ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& findings) {
   ResolvedCase resolved{.gravity = case_file.gravity,
                         .air = case_file.air,
+                        .field = case_file.field,
                         .bodies = case_file.bodies,
                         .loads = case_file.loads,
                         .supports = case_file.supports,
                         .sliding_joints = case_file.sliding_joints,
                         .eyelets = case_file.eyelets,
+                        .reels = case_file.reels,
                         .stops = case_file.stops,
                         .joints = case_file.joints,
                         .connectors = case_file.connectors,

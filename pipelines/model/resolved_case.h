@@ -14,6 +14,7 @@ namespace nurbeam {
 struct ResolvedCase {
   Eigen::Vector3d gravity;
   Air air = {};
+  std::optional<MassField> field = {};
   std::vector<CaseBeam> beams = {};
   std::vector<Chain> chains = {};  ///< per beam: indices into the curves of its file; empty for other axes
   std::vector<CaseBody> bodies;
@@ -22,6 +23,7 @@ struct ResolvedCase {
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
   std::vector<CaseEyelet> eyelets = {};
+  std::vector<CaseReel> reels = {};
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseConnector> connectors;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/motion/record/snapshot.h"
+#include "fem/structure/measure.h"
 #include "pipelines/results/netcdf_file.h"
 
 /// What the writer and the reader of stored frames share; the layout stands in frame_store.h.
@@ -54,6 +55,13 @@ inline std::span<const BodyPart> known_body_parts(const SnapshotNames& names) {
 inline std::pair<std::string, std::string> parts_of_measure(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// The unit of a quantity of SnapshotNames::measures.
+inline const char* unit_of_measure(const std::string& quantity) {
+  for (const RingQuantity& of : ring_quantities)
+    if (quantity == of.name) return of.unit;
+  return "m";
 }
 
 /// What a connector does: variables connector_NAME, columns NAME.COLUMN.

@@ -47,9 +47,12 @@ void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
   for (std::size_t i = 0; i < frame.connectors.size(); ++i)
     keep({names.connectors.at(i) + ".force", "N", frame.connectors[i].force, std::nullopt, frame.time},
          false);
-  for (std::size_t i = 0; i < frame.measures.size(); ++i)
-    keep({names.measures.at(i), "m", frame.measures[i].value, frame.measures[i].s, frame.time},
-         parts_of_measure(names.measures[i]).second == "clearance");
+  for (std::size_t i = 0; i < frame.measures.size(); ++i) {
+    const std::string quantity = parts_of_measure(names.measures.at(i)).second;
+    keep({names.measures[i], unit_of_measure(quantity), frame.measures[i].value, frame.measures[i].s,
+          frame.time},
+         quantity == "clearance");
+  }
   for (const auto& [name, energy] : {std::pair{"kinetic", frame.energy.kinetic},
                                      {"axial", frame.energy.axial},
                                      {"bending", frame.energy.bending}})

@@ -45,7 +45,7 @@ std::optional<Crossing> first_crossing(const BeamSystem& system, const State& be
 
 std::optional<Crossing> end_reached(const BeamSystem& system, const State& state, int rider, bool forward) {
   const ReferenceCurve& curve = system.model().beam_of(system.model().riders[rider]).curve;
-  const double end = forward ? curve.length() : 0;
+  const double end = forward ? curve.end() : curve.start();
   if (curve.closed() || std::abs(*place(system, state, rider) - end) > 1e-9 * curve.length()) return {};
   return Crossing{rider, end, forward};
 }
@@ -53,13 +53,15 @@ std::optional<Crossing> end_reached(const BeamSystem& system, const State& state
 std::optional<Crossing> end_passed(const BeamSystem& system, const State& state) {
   const BeamModel& model = system.model();
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
-    const ReferenceCurve& curve = model.beam_of(model.riders[j]).curve;
-    const std::optional<PlaceMotion>& motion = model.riders[j].motion;
-    const bool by_table = motion && motion->rows();  // a table is known to stay on the beam
-    if (curve.closed() || by_table || system.mesh().plan.modes[j] != Carried::point) continue;
+    const Rider& rider = model.riders[j];
+    const ReferenceCurve& curve = model.beam_of(rider).curve;
+    const bool by_table = rider.motion && rider.motion->rows();  // a table is known to stay on the beam
+    const Carried mode = system.mesh().plan.modes[j];
+    const bool comes_to_end = mode == Carried::point || (mode == Carried::node && rider.reel);
+    if (curve.closed() || by_table || !comes_to_end) continue;
     const double s = *place(system, state, j), beyond = landing_tolerance(model, j);
-    if (s < -beyond) return Crossing{j, 0, false};
-    if (s > curve.length() + beyond) return Crossing{j, curve.length(), true};
+    if (s < curve.start() - beyond) return Crossing{j, curve.start(), false};
+    if (s > curve.end() + beyond) return Crossing{j, curve.end(), true};
   }
   return std::nullopt;
 }

@@ -15,7 +15,8 @@ namespace {
 // the end.
 void add_leaving(const LoadAtPlace& load, const Beam& beam, std::vector<double>& times) {
   if (load.speed == 0 || beam.is_ring()) return;
-  const double length = beam.curve.length(), way = load.speed > 0 ? length - load.s : -load.s;
+  const double length = beam.curve.length(),
+               way = (load.speed > 0 ? beam.curve.end() : beam.curve.start()) - load.s;
   times.push_back(way / load.speed);
   times.push_back((way + std::copysign(2e-12 * length, load.speed)) / load.speed);
 }

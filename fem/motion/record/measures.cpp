@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "fem/system/material_points.h"
+#include "fem/system/observables.h"
+#include "fem/system/stress_resultants.h"
 #include "nurbs/golden_section.h"
 
 namespace nurbeam {
@@ -105,9 +107,68 @@ Extreme sag_of(const ShapeOfBeam& part, const PartSag& of, const Vector3d& up) {
   return lowest;
 }
 
+// The tension of a beam beside a rider that is a node; else at its place.
+double tension_beside(const BeamSystem& system, const State& state, int rider, int side) {
+  const Mesh& mesh = system.mesh();
+  const int beam = system.model().riders[rider].beam, node = mesh.riders[rider].node;
+  const double s = state.q[mesh.riders[rider].place];
+  const int span =
+      node < 0 ? find_span(system.model(), mesh, state.q, beam, s) : spans_at(mesh, beam, node)[side];
+  return section_at(system, state, span, CarriedBySpans(system, state)[span], s).axial_force;
+}
+
+double wrap_at(const BeamSystem& system, const State& state, int rider) {
+  const Mesh& mesh = system.mesh();
+  const int node = mesh.riders[rider].node;
+  if (node < 0) return 0;
+  const MeshNode& at = mesh.nodes[system.model().riders[rider].beam][node];
+  const Vector3d before = vector_at(system, state.q, at.slope_left).normalized(),
+                 behind = vector_at(system, state.q, at.slope_right).normalized();
+  return 2 * std::atan2((behind - before).norm(), (behind + before).norm());
+}
+
+// The tension where the rope leaves a reel: on its one side.
+double tension_at_mouth(const BeamSystem& system, const State& state, int rider) {
+  return tension_beside(system, state, rider, system.model().riders[rider].reel->at_start ? 1 : 0);
+}
+
+Extreme at_ring(const BeamSystem& system, const State& state, const AtRing& of) {
+  using enum AtRing::Quantity;
+  const int place = system.mesh().riders[of.rider].place;
+  if (place < 0) return {};  // it has let go
+  const Rider& rider = system.model().riders[of.rider];
+  const ReferenceCurve& curve = system.model().beam_of(rider).curve;
+  const double s = state.q[place], v = state.v[place];
+  const auto value = [&] {
+    switch (of.quantity) {
+      case tension_before:
+        return tension_beside(system, state, of.rider, 0);
+      case tension_behind:
+        return tension_beside(system, state, of.rider, 1);
+      case wrap:
+        return wrap_at(system, state, of.rider);
+      case axial_force:
+        return tension_at_mouth(system, state, of.rider);
+      case stored:
+        return system.model().stored_length(rider, s);
+      case out:
+        return curve.length() - system.model().stored_length(rider, s);
+      case rate:
+        return -rider.reel->sense() * v;
+      case power: {
+        const Vector3d slope = material_point(system, state, rider.beam, s).rs;
+        return tension_at_mouth(system, state, of.rider) * slope.norm() * rider.reel->sense() * v;
+      }
+    }
+    return std::nan("");
+  };
+  return {value(), curve.wrapped(s)};
+}
+
 }  // namespace
 
 Extreme record_measure(const BeamSystem& system, const State& state, const Measure& measure) {
+  if (const auto* ring = std::get_if<AtRing>(&measure)) return at_ring(system, state, *ring);
   const Vector3d gravity = system.model().gravity;
   if (gravity.norm() == 0) return {};
   const Vector3d up = -gravity.normalized();

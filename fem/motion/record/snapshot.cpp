@@ -9,6 +9,7 @@
 #include "fem/motion/record/sag.h"
 #include "fem/system/bending_layers.h"
 #include "fem/system/observables.h"
+#include "fem/time_table.h"
 
 namespace nurbeam {
 
@@ -183,7 +184,10 @@ ProbeRecord record_probe(const BeamSystem& system, const State& state, const Pro
 ReactionRecord record_reaction(const BeamSystem& system, const State& state, int i) {
   const Constraint& constraint = system.model().constraints[i];
   const Grip at = std::visit([](const auto& c) { return c.place(); }, constraint);
-  const Reaction given = reaction(system, state, state.lambda, i);
+  Reaction given = reaction(system, state, state.lambda, i);
+  for (int j = 0; j < static_cast<int>(system.model().riders.size()); ++j)
+    if (const Rider& rider = system.model().riders[j]; rider.reel && rider.body == at.body)
+      given.force = joint_force(system, state, j);  // of the beam on the reel, without what is stored
   const Eigen::Vector3d r = at.body >= 0 ? vector_at(system, state.q, system.mesh().bodies[at.body])
                                          : material_point(system, state, at.beam, at.s).r;
   return {r, given.force, given.couple};
@@ -249,7 +253,11 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
       body.friction_force = friction->along;
       body.stuck = friction->memory.slides == 0 ? 1 : 0;
     }
-    if (model.riders[j].motion && body.s) body.drive_force = body.holding_force;
+    const Rider& rider = model.riders[j];
+    if (!body.s) continue;
+    if (rider.motion) body.drive_force = body.holding_force;
+    if (!rider.drive_force.empty()) body.drive_force = value_and_slope(rider.drive_force, state.t).first;
+    if (rider.reel) body.drive_force *= rider.reel->sense();  // positive where it takes in
   }
   for (int i = 0; contents.reactions && i < static_cast<int>(model.constraints.size()); ++i)
     snapshot.reactions.push_back(record_reaction(system, state, i));

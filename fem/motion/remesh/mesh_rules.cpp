@@ -50,7 +50,8 @@ class RiderRules {
 
   // Whether the rider is a node that may become a point: a point cannot carry a kink.
   bool may_become_point() const {
-    return mesh_.plan.modes[joint_] == Carried::node && model_.riders[joint_].continuous_slope;
+    const Rider& rider = model_.riders[joint_];
+    return mesh_.plan.modes[joint_] == Carried::node && rider.continuous_slope && !rider.reel;
   }
   void become_point_for_good() {
     std::vector<bool>& for_good = plan().points_for_good;
@@ -62,7 +63,7 @@ class RiderRules {
   bool apply() {
     if (mesh_.plan.modes[joint_] == Carried::point) return leave_point();
     if (mesh_.plan.modes[joint_] != Carried::node) return false;
-    if (near_end() || is_near_as_point(passing_zone)) return become_point();
+    if (!model_.riders[joint_].reel && (near_end() || is_near_as_point(passing_zone))) return become_point();
     return move_breaks() || exchange_nodes();
   }
 
@@ -75,7 +76,7 @@ class RiderRules {
   static constexpr int on_each_side = 2;
 
   // Looks up the rider's node and two nodes on each side at their present places. A ring is gone round as
-  // often as needed; an open beam may have fewer.
+  // often as needed; an open beam may have fewer, and behind the mouth of a reel there is none.
   void look_around(const Eigen::VectorXd& q) {
     const std::vector<MeshNode>& nodes = mesh_.nodes[index_];
     const int count = static_cast<int>(nodes.size()), own = mesh_.riders[joint_].node;
@@ -89,15 +90,19 @@ class RiderRules {
     for (int k = own - on_each_side; k <= own + on_each_side; ++k) {
       if (!beam_.is_ring() && (k < 0 || k >= count)) continue;
       const int turn = k < 0 ? -((count - 1 - k) / count) : k / count, i = k - turn * count;
-      if (k == own) left_ = node_count_ - 1;
+      if (k == own) left_ = node_count_ - 1;  // -1 where there is none
+      if (k == own + 1) right_ = node_count_;
       const int home = nodes[i].home >= 0 ? nodes[i].home + (turns + turn) * beam_.home_intervals() : -1;
       nodes_[node_count_++] = {now(i) + (turns + turn) * L, home, nodes[i].rider};
     }
-    right_ = left_ + 2;
     // The home nodes that can come and go, from the left neighbour to the right one.
-    lowest_ = std::max(lowest(), beam_.home_interval(nodes_[left_].s));
-    highest_ = std::min(highest(), beam_.home_interval(nodes_[right_].s) + 1);
+    lowest_ = std::max(lowest(), beam_.home_interval(nearest_before()));
+    highest_ = std::min(highest(), beam_.home_interval(nearest_behind()) + 1);
   }
+
+  // Places of the neighbours; of the rider itself where there is none.
+  double nearest_before() const { return left_ < 0 ? s_ : nodes_[left_].s; }
+  double nearest_behind() const { return right_ < 0 ? s_ : nodes_[right_].s; }
 
   // Watches distances from two home nodes. While other riders are further away nothing else counts, and each
   // distance is watched before it is asked for.
@@ -105,7 +110,7 @@ class RiderRules {
     const int h = beam_.home_interval(s_);
     watch(at(h));
     watch(at(h + 1));
-    if (left_ >= 0 && std::any_of(nodes_.begin(), nodes_.begin() + node_count_,
+    if (node_count_ > 0 && std::any_of(nodes_.begin(), nodes_.begin() + node_count_,
                                   [&](const Node& node) { return node.rider >= 0 && node.rider != joint_; }))
       watch_closely();
   }
@@ -154,9 +159,9 @@ class RiderRules {
 
   bool leave_point() {
     if (mesh_.plan.is_point_for_good(joint_)) return false;
-    const double from_end = std::min(s_, at(last()) - s_), zone = 2 * end_zone * spacing(s_);
+    const double from_end = std::min(s_ - at(0), at(last()) - s_), zone = 2 * end_zone * spacing(s_);
     if (!beam_.is_ring()) {
-      watch(zone);
+      watch(at(0) + zone);
       watch(at(last()) - zone);
     }
     if (!beam_.is_ring() && from_end < zone) return false;
@@ -189,11 +194,12 @@ class RiderRules {
     return change(MeshChange::becomes_point);
   }
 
-  bool hidden(int h) const { return !present(h) && at(h) > nodes_[left_].s && at(h) < nodes_[right_].s; }
+  bool hidden(int h) const { return !present(h) && at(h) > nearest_before() && at(h) < nearest_behind(); }
 
   // Whether a neighbour that is itself a moving node is within `reach` home intervals of a home node.
   bool another_joint_near(int h, double reach) const {
     for (const int neighbour : {left_, right_}) {
+      if (neighbour < 0) continue;
       const Node& node = nodes_[neighbour];
       if (node.rider < 0) continue;
       const double gap = at(h) < node.s ? at(h + 1) - at(h) : at(h) - at(h - 1);
@@ -219,7 +225,7 @@ class RiderRules {
         return change(MeshChange::merge);  // charts change too: velocities are projected
       }
       const auto is_here = [&](int neighbour) {
-        return nodes_[neighbour].rider < 0 && nodes_[neighbour].home == h;
+        return neighbour >= 0 && nodes_[neighbour].rider < 0 && nodes_[neighbour].home == h;
       };
       if ((is_here(left_) || is_here(right_)) && distance < passing_zone * gap && is_approaching(at(h))) {
         remove(h);
@@ -231,6 +237,7 @@ class RiderRules {
 
   // Returns whether a hidden home node comes back in the element towards a neighbour.
   bool insert_towards(int neighbour) {
+    if (neighbour < 0) return false;
     const Node& far = nodes_[neighbour];
     if (far.rider >= 0) return insert_between_joints(far);
     for (int h = lowest_; h <= highest_; ++h) {
@@ -257,6 +264,7 @@ class RiderRules {
   }
 
   bool remove_at(int neighbour) {
+    if (neighbour < 0) return false;
     const Node& near = nodes_[neighbour];
     const int h = near.home;
     if (near.rider >= 0 || is_end(h) || home(h).permanent) return false;
@@ -298,7 +306,7 @@ class RiderRules {
   PlaceRange quiet_;
   std::array<Node, 2 * on_each_side + 1> nodes_;
   int node_count_ = 0;
-  int left_ = -1, right_ = -1;     // indices in nodes_
+  int left_ = -1, right_ = -1;     // indices in nodes_; -1: no such neighbour
   int lowest_ = 0, highest_ = -1;  // numbers of home nodes
 };
 
@@ -370,10 +378,7 @@ bool can_wait(const BeamSystem& system, const State& state, const NextPlan& next
   if (next.change == MeshChange::becomes_node) return true;
   const Mesh& mesh = system.mesh();
   const int beam = system.model().riders[next.rider].beam;
-  const int node = mesh.riders[next.rider].node, first = mesh.first_span[beam];
-  const int spans = mesh.first_span[beam + 1] - first;
-  // On a ring the last element comes before the first node.
-  for (const int span : {first + (node + spans - 1) % spans, first + node % spans}) {
+  for (const int span : spans_at(mesh, beam, mesh.riders[next.rider].node)) {
     const double start = mesh.spans[span].start(state.q), end = mesh.spans[span].end(state.q);
     const double standard = system.model().beams[beam].home_spacing((start + end) / 2);
     if (end - start < shortest * standard || end - start > longest * standard) return false;

@@ -115,7 +115,7 @@ double next_move(const MeshedState& at, int rider, Descent& body) {
   const double room = 0.4 * distance_to_others(at, rider);
   const double free = std::clamp(ds, -room, room);
   const double stopped = before_stops(at, rider, s, free);
-  ds = curve.closed() ? stopped : std::clamp(stopped, -s, curve.length() - s);
+  ds = curve.closed() ? stopped : std::clamp(stopped, curve.start() - s, curve.end() - s);
   const auto goes = [&](double way) { return std::abs(way) >= 1e-6 * spacing; };
   body.arrived = !goes(ds);
   body.at_end = body.arrived && !nothing_pulls && goes(free);
@@ -203,8 +203,8 @@ std::vector<MoveLimit> CoupledDescent::limits(const MeshedState& at, const std::
     const ReferenceCurve& curve = model.beam_of(model.riders[j]).curve;
     for (const double way : {1.0, -1.0}) add(way * row_of(j), -most_, Of::move);
     if (!curve.closed()) {
-      if (!stands_at(model, j, 0, false)) add(row_of(j), -s, Of::end);
-      if (!stands_at(model, j, curve.length(), true)) add(-row_of(j), s - curve.length(), Of::end);
+      if (!stands_at(model, j, curve.start(), false)) add(row_of(j), curve.start() - s, Of::end);
+      if (!stands_at(model, j, curve.end(), true)) add(-row_of(j), s - curve.end(), Of::end);
     }
     // Without a hard stop between them, two bodies approach by at most a part of their distance in one move:
     // a buffer that a body has jumped over pushes the wrong way.

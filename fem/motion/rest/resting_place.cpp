@@ -32,9 +32,8 @@ double room_to_move(const MeshedState& at, int rider, int direction) {
   const Mesh& mesh = at.system->mesh();
   const int node = mesh.riders[rider].node;
   if (node < 0) return std::numeric_limits<double>::infinity();
-  const int beam = at.system->model().riders[rider].beam, first = mesh.first_span[beam];
-  const int count = mesh.first_span[beam + 1] - first;
-  const MeshSpan& span = mesh.spans[first + (direction > 0 ? node : (node + count - 1) % count)];
+  const int beam = at.system->model().riders[rider].beam;
+  const MeshSpan& span = mesh.spans[spans_at(mesh, beam, node)[direction > 0 ? 1 : 0]];
   return (span.end(at.state.q) - span.start(at.state.q)) / 2;
 }
 

@@ -49,6 +49,9 @@ bool is_moved(const Constraint& constraint) {
 bool is_driven(const BeamModel& m) {
   return !m.forces.empty() || !m.air.wind.isZero() || has_prescribed_motions(m) ||
          std::any_of(
+             m.riders.begin(), m.riders.end(),
+             [](const Rider& rider) { return !rider.drive_force.empty(); }) ||
+         std::any_of(
              m.beams.begin(), m.beams.end(),
              [](const Beam& beam) { return !beam.properties.free_strain.thermal.empty(); });
 }

@@ -76,6 +76,11 @@ bool end_sliding_at(MeshedState& at, const Crossing& ending, bool leaves, double
   MeshPlan plan = present_plan(*at.system, at.state);
   plan.places[rider] = ending.s;
   plan.modes[rider] = leaves ? Carried::free : Carried::stopped;
+  const Rider& ended = at.system->model().riders[rider];
+  if (ended.reel) {  // which lets the end of its beam go
+    std::vector<bool>& present = plan.beams[ended.beam].present;
+    present[ended.reel->at_start ? 0 : present.size() - 1] = true;
+  }
   if (leaves) {
     plan.spins.resize(at.system->model().riders.size());
     plan.spins[rider] = body_motions(*at.system, at.state).spins[rider];

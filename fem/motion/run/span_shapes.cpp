@@ -45,7 +45,7 @@ NURBEAM_WITHIN Lanes8 gathered(const double* from, const std::array<int, n>& fir
 
 double near_place(const Beam& beam, double s) {
   const double apart = beam.curve.length() / 4096;
-  return std::clamp(std::round(s / apart) * apart, 0.0, beam.curve.length());
+  return std::clamp(std::round(s / apart) * apart, beam.curve.start(), beam.curve.end());
 }
 
 SpanShapes::SpanShapes(const Beam& beam, const Mesh& mesh, int number, const State& state) {

@@ -32,6 +32,9 @@ inline Fields<Friction> friction_fields() {
       field(&F::viscous, "viscous", quantity(Dimension::damping, plausible(0, 1e16)),
             "force over sliding velocity")
           .otherwise("0"),
+      field(&F::quadratic, "quadratic", quantity(Dimension::drag, plausible(0, 1e16)),
+            "force over the square of the sliding velocity, as of a water brake")
+          .otherwise("0"),
       field(
           &F::stick_stiffness, "stick_stiffness",
           quantity(Dimension::force_per_length, plausible(1e-9, 1e16)),

@@ -7,6 +7,7 @@ namespace nurbeam {
 /// A prescribed motion along a beam, at a constant speed or by rows.
 struct CasePlaceMotion {
   std::optional<double> speed;  ///< [m/s]
+  double ramp = 0;              ///< time in which the speed is reached, from rest [s]
   TimeTable table;              ///< [m]; empty: none
   RowJoin join = RowJoin::smooth;
 
@@ -20,6 +21,9 @@ Field<Owner> place_motion_field(CasePlaceMotion Owner::*member, const std::strin
   using namespace shapes;
   const Shape motion = object(
       {{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
+       {"ramp", quantity(Dimension::time, plausible(0, 1e9)),
+        "time in which the speed is reached from rest, evenly; the speed is there at once when omitted", false,
+        "speed"},
        {"table", table(Dimension::length),
         of_table + " over time, constant outside the rows; between them smooth, with a continuous speed and "
                    "acceleration"},
@@ -31,6 +35,7 @@ Field<Owner> place_motion_field(CasePlaceMotion Owner::*member, const std::strin
                          [member](const Json& json, const std::string&, Owner& owner, Findings&) {
                            CasePlaceMotion& read = owner.*member;
                            if (const Json* speed = value_under(json, "speed")) take(*speed, read.speed);
+                           if (const Json* ramp = value_under(json, "ramp")) take(*ramp, read.ramp);
                            if (const Json* rows = value_under(json, "table")) take(*rows, read.table);
                            if (const Json* join = value_under(json, "interpolation"))
                              if (text_of_choice(*join) == "linear") read.join = RowJoin::linear;
