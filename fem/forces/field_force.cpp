@@ -32,12 +32,14 @@ struct FieldPoint {
   }
 };
 
-// Calls visit(point) for the Gauss points of an element.
+// Calls visit(point, xi, length) for the Gauss points of an element, at start + xi length.
 template <int D, class Visit>
 void for_each_point(const MeshElement<D>& e, const State& state, const ElementState<D>& x, Visit&& visit) {
   const double start = e.span->start(state.q), length = e.span->end(state.q) - start;
-  for (int g = 0; g < GaussRule::size; ++g)
-    visit(FieldPoint<D>(e, state, x, start + GaussRule::points[g] * length, GaussRule::weights[g] * length));
+  for (int g = 0; g < GaussRule::size; ++g) {
+    const double xi = GaussRule::points[g];
+    visit(FieldPoint<D>(e, state, x, start + xi * length, GaussRule::weights[g] * length), xi, length);
+  }
 }
 
 }  // namespace
@@ -48,7 +50,7 @@ void FieldOnBeams<D>::add_force(const MeshedBeams<D>& at, const State& state,
   for (const MeshElement<D>& e : at.elements) {
     const ElementState<D> x = gather<D>(e, state);
     ElementVector<D> sum = ElementVector<D>::Zero();
-    for_each_point<D>(e, state, x, [&](const FieldPoint<D>& p) {
+    for_each_point<D>(e, state, x, [&](const FieldPoint<D>& p, double, double) {
       sum += p.r.gradient.transpose() * p.force(*at.structure.field, state.load);
     });
     for (int k = 0; k < element_size<D>; ++k)
@@ -64,21 +66,25 @@ ElementMatrix<D> FieldOnBeams<D>::tangent(const MeshedBeams<D>& at, const MeshEl
   const ElementState<D> x = gather<D>(e, state);
   const std::array<double, 2> rates{x.v[Layout::place(0)], x.v[Layout::place(1)]};
   ElementMatrix<D> K = ElementMatrix<D>::Zero();
-  for_each_point<D>(e, state, x, [&](const FieldPoint<D>& p) {
+  for_each_point<D>(e, state, x, [&](const FieldPoint<D>& p, double xi, double length) {
     const auto& G = p.r.gradient;
     const double m = state.load * p.mass;
     const Eigen::Matrix<double, D, D> by_r = m * field.gradient(p.position).template topLeftCorner<D, D>(),
                                       by_v = m * field.by_velocity().template topLeftCorner<D, D>();
+    const Eigen::Matrix<double, D, 1> force = p.force(field, state.load);
     const auto rate_gradient = p.r.rate_gradient(p.shape.nodes, x.node_rates(), rates);
     K -= G.transpose() * (by_v * (w.damping * G + w.stiffness * rate_gradient) + w.stiffness * by_r * G);
-    p.r.add_hessian(p.force(field, state.load), -w.stiffness, p.shape.nodes, K);
+    p.r.add_hessian(force, -w.stiffness, p.shape.nodes, K);
+    if (e.element.fixed()) return;
+    // The point and its mass move with the ends.
+    const PointField<D> rs = p.shape.slope();
+    const Eigen::Matrix<double, D, 1> along =
+        by_r * rs.value + by_v * rs.rate(p.shape.nodes, x.node_rates(), rates);
+    const ElementVector<D> here = G.transpose() * force / length,
+                           by_s = rs.gradient.transpose() * force + G.transpose() * along;
+    K.col(Layout::place(0)) -= w.stiffness * ((1 - xi) * by_s - here);
+    K.col(Layout::place(1)) -= w.stiffness * (xi * by_s + here);
   });
-  // The ends are limits of the integral.
-  for (const int end : {0, 1}) {
-    if (e.dofs[Layout::place(end)] < 0) continue;
-    const FieldPoint<D> p(e, state, x, x.q[Layout::place(end)], end == 0 ? -1 : 1);
-    K.col(Layout::place(end)) -= w.stiffness * p.r.gradient.transpose() * p.force(field, state.load);
-  }
   return K;
 }
 
@@ -87,7 +93,7 @@ void FieldOnBeams<D>::add_energy(const MeshedBeams<D>& at, const State& state, S
   for (const MeshElement<D>& e : at.elements)
     for_each_point<D>(
         e, state, gather<D>(e, state),
-        [&](const FieldPoint<D>& p) { sum.gravity += p.mass * at.structure.field->potential(p.position); });
+        [&](const FieldPoint<D>& p, double, double) { sum.gravity += p.mass * at.structure.field->potential(p.position); });
 }
 
 template class FieldOnBeams<2>;

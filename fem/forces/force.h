@@ -6,6 +6,7 @@
 #include "fem/forces/buffer_force.h"
 #include "fem/forces/custom_force.h"
 #include "fem/forces/field_force.h"
+#include "fem/forces/flow_force.h"
 #include "fem/forces/line_load.h"
 #include "fem/forces/line_torque.h"
 #include "fem/forces/moment.h"
@@ -34,8 +35,8 @@ using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, C
 template <int D, class... Others>
 using ForceList =
     std::variant<PointMass<D>, BoundPlaceMass<D>, Spring<D>, BodyDrag<D>, BufferForce<D>, SlidingFriction<D>,
-                 PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, PointLoad, Moment, LineLoad,
-                 LineTorque, BoundCustomForce<D>, Others...>;
+                 PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, FlowForce<D>, PointLoad,
+                 Moment, LineLoad, LineTorque, BoundCustomForce<D>, Others...>;
 template <int D>
 using BoundForce =
     std::conditional_t<D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll>,
@@ -53,8 +54,9 @@ static_assert(all_keep_offers<3>(static_cast<BoundForce<3>*>(nullptr)),
 /// Sources of forces: the parts of a structure that bring forces by themselves, in the order in which these
 /// are added up, before those of descriptions. Each source offers bind(binding, add).
 template <int D>
-using ForceSources = TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>,
-                              Spring<D>, PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>>;
+using ForceSources =
+    TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>, Spring<D>,
+             PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, FlowForce<D>>;
 
 /// A description in a mesh: itself, or its Bound<D>.
 template <int D, class Description>

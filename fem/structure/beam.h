@@ -56,7 +56,10 @@ struct Beam {
   MergeRule merge = MergeRule::standard;
   Form form = Form::variational;
   std::optional<BeamVelocity> velocity = {};  ///< velocity at t = 0; without one the beam is at rest
-  std::vector<PipeBend> bends = {};           ///< in order of their segments
+  /// A steady run along itself, without change of shape, of a motion that starts in equilibrium: reference
+  /// length per time towards its end [m/s].
+  double flow = 0;
+  std::vector<PipeBend> bends = {};  ///< in order of their segments
   /// A guide: the axis stays as drawn, without elements, mass or strain. Its home nodes are the breaks.
   bool rigid = false;
   /// A rope or a wire: where its elements are parts of a string (is_string), their moments are those of their

@@ -71,6 +71,7 @@ struct Structure {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s^2]
   Air air = {};
   std::optional<MassField> field = {};  ///< what acts on mass besides gravity
+  bool runs_at_rest = false;  ///< its equilibria are those of beams that run along themselves (Beam::flow)
   std::vector<Beam> beams;
   std::vector<Body> bodies;
   std::vector<Rider> riders;

@@ -11,11 +11,19 @@ namespace nurbeam {
 
 namespace {
 
-// A given velocity at a material point, and its derivative along the beam.
+// The given velocity of a beam at a material point, and its derivative along the beam.
 struct GivenVelocity {
-  Eigen::Vector3d value, by_s;
+  Eigen::Vector3d value = Eigen::Vector3d::Zero(), by_s = Eigen::Vector3d::Zero();
 
-  GivenVelocity(const BeamVelocity& given, const MaterialPoint<3>& p) {
+  GivenVelocity(const Beam& beam, const MaterialPoint<3>& p) {
+    if (beam.velocity) add(*beam.velocity, p);
+    value += beam.flow * p.rs;
+    by_s += beam.flow * p.rss;
+  }
+  static bool is_of(const Beam& beam) { return beam.velocity || beam.flow != 0; }
+
+ private:
+  void add(const BeamVelocity& given, const MaterialPoint<3>& p) {
     const double stretch = p.rs.norm();
     const Eigen::Vector3d t = p.rs / stretch;
     value = given.translation + given.rotation.cross(p.r - given.about) + given.along * t;
@@ -47,23 +55,23 @@ Eigen::VectorXd given_velocities(const BeamSystem& system, const State& state) {
   NodalMeans v(system.coordinate_count());
   for (int i = 0; i < static_cast<int>(mesh.spans.size()); ++i) {
     const MeshSpan& span = mesh.spans[i];
-    const std::optional<BeamVelocity>& given = model.beams[span.beam].velocity;
-    if (!given) continue;
+    const Beam& beam = model.beams[span.beam];
+    if (!GivenVelocity::is_of(beam)) continue;
     for (const int end : {0, 1}) {
       const MeshNode& node = end == 0 ? mesh.node_a(span) : mesh.node_b(span);
       const double s = end == 0 ? span.start(state.q) : span.end(state.q);
-      const GivenVelocity velocity(*given, material_point_in(system, state, i, s));
+      const GivenVelocity velocity(beam, material_point_in(system, state, i, s));
       v.add(node.r, D, velocity.value);
       v.add(end == 0 ? node.slope_right : node.slope_left, D, velocity.by_s);
     }
   }
   for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
     const Rider& rider = model.riders[j];
-    const std::optional<BeamVelocity>& given = model.beam_of(rider).velocity;
-    if (!given || mesh.riders[j].node >= 0 || mesh.riders[j].place < 0) continue;
+    if (!GivenVelocity::is_of(model.beam_of(rider)) || mesh.riders[j].node >= 0 || mesh.riders[j].place < 0)
+      continue;
     const double s = state.q[mesh.riders[j].place];
     v.add(mesh.bodies[rider.body], D,
-          GivenVelocity(*given, material_point(system, state, rider.beam, s)).value);
+          GivenVelocity(model.beam_of(rider), material_point(system, state, rider.beam, s)).value);
   }
   return v.means();
 }
@@ -146,8 +154,11 @@ void start_moving(const BeamSystem& system, State& state) {
     const Rider& rider = model.riders[j];
     const double speed = rider.motion ? rider.motion->at(state.t).speed : rider.speed;
     const double s = state.q[at.place];
-    const Eigen::VectorXd velocity = speed * point_ahead(system, state, rider.beam, s, speed).rs.head(D);
-    state.v.segment(mesh.bodies[rider.body], D) = velocity;
+    const auto set_velocity = [&](const Eigen::Vector3d& rs) {
+      state.v.segment(mesh.bodies[rider.body], D) = speed * rs.head(D);
+      if (at.node >= 0) state.v.segment(mesh.nodes[rider.beam][at.node].r, D) = speed * rs.head(D);
+    };
+    set_velocity(point_ahead(system, state, rider.beam, s, speed).rs);
     state.v[at.place] = speed;
     if (at.node < 0) continue;
     const auto [before, behind] = spans_at(mesh, rider.beam, at.node);
@@ -156,13 +167,13 @@ void start_moving(const BeamSystem& system, State& state) {
     // curve.
     const MaterialPoint<3> left = material_point_in(system, state, before, s);
     const MeshNode& node = mesh.nodes[rider.beam][at.node];
-    state.v.segment(node.r, D) = velocity;
+    // Where the beam runs through a kink in shape, its node stands still: given_velocities has the mean too.
+    if (model.beam_of(rider).flow != 0) set_velocity((left.rs + right.rs) / 2);
     const bool shared = node.slope_left == node.slope_right;
     state.v.segment(node.slope_left, D) =
         speed * (shared ? Eigen::Vector3d((left.rss + right.rss) / 2) : left.rss).head(D);
     if (!shared) state.v.segment(node.slope_right, D) = speed * right.rss.head(D);
-    if (node.angle_left >= 0)
-      slide_sections(system, node, before, behind, speed, state);
+    if (node.angle_left >= 0) slide_sections(system, node, before, behind, speed, state);
   }
   State given = state;
   given.v = given_velocities(system, state);

@@ -25,6 +25,7 @@
 #include "pipelines/model/drawn_beam.h"
 #include "pipelines/model/drawn_bending.h"
 #include "pipelines/model/eyelets.h"
+#include "pipelines/model/flows.h"
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/law_points.h"
 #include "pipelines/model/loads.h"
@@ -510,6 +511,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
+  set_flows(resolved, built.model, findings);
   built.slopes = decide_slopes(resolved, beams, held, joined, built.frame, interrupted,
                                like ? &like->slopes : nullptr, built.model, findings);
   if (findings.has_errors()) return {};

@@ -1,5 +1,6 @@
 #include "pipelines/model/place_motions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -36,15 +37,16 @@ void check_motion(const CasePlaceMotion& from, const MovedPlace& place, const Ro
                   Findings& findings) {
   const double L = place.curve->length(), start = motion.at(0).value;
   const double origin = place.from_start ? place.s : 0;
+  const auto [least, most] =
+      std::minmax({place.sense * (place.low - origin), place.sense * (place.high - origin)});
   if (std::abs(start - place.s) > same_place * L)
-    findings.error(
-        place.path + ".motion.table",
-        place.from_start
-            ? "is " + text_of(start - origin) + " m at time 0; it counts from the start, and must be 0 there"
-            : "is at s = " + text_of(start) + " m at time 0, but \"at\" is s = " + text_of(place.s) +
-                  " m; it must start where \"at\" is");
+    findings.error(place.path + ".motion.table",
+                   place.from_start ? "is " + text_of(place.sense * (start - origin)) +
+                                          " m at time 0; it counts from the start, and must be 0 there"
+                                    : "is at s = " + text_of(start) + " m at time 0, but \"at\" is s = " +
+                                          text_of(place.s) + " m; it must start where \"at\" is");
   for (std::size_t i = 0; i < from.table.size(); ++i) {
-    const double row = from.table[i].second, s = origin + row;
+    const double row = from.table[i].second, s = origin + place.sense * row;
     const std::string path = place.path + ".motion.table[" + std::to_string(i) + "]";
     if (i > 0) {
       const auto& [time, before] = from.table[i - 1];
@@ -57,15 +59,14 @@ void check_motion(const CasePlaceMotion& from, const MovedPlace& place, const Ro
     if (place.curve->closed()) continue;  // as often around as it says
     if (!(s >= place.low - same_place * L && s <= place.high + same_place * L))
       findings.error(path, text_of(row) + " m is not on beam \"" + place.beam + "\", which is " + text_of(L) +
-                               " m long; must be between " + text_of(place.low - origin) + " and " +
-                               text_of(place.high - origin) + " m");
+                               " m long; must be between " + text_of(least) + " and " + text_of(most) + " m");
   }
 }
 
-// The motion at a constant speed, to where it must end or for twice as long as the analysis: with it the place
-// would stand still at its end. The speed is reached evenly within the ramp.
+// The motion at a constant speed, to where it must end or for twice as long as the analysis: with it the
+// place would stand still at its end. The speed is reached evenly within the ramp.
 TimeTable steady_motion(const CasePlaceMotion& motion, const MovedPlace& place, double end_time) {
-  const double speed = *motion.speed, s = place.s, ramp = motion.ramp;
+  const double speed = place.sense * *motion.speed, s = place.s, ramp = motion.ramp;
   const double end = place.curve->closed() ? s + speed * (2 * end_time + ramp)
                      : speed > 0           ? place.high
                                            : place.low;
@@ -91,7 +92,7 @@ std::optional<PlaceMotion> place_motion_of(const CasePlaceMotion& motion, const 
   if (motion.table.empty()) return {};
   TimeTable rows = motion.table;
   if (place.from_start)
-    for (auto& [time, s] : rows) s += place.s;
+    for (auto& [time, s] : rows) s = place.s + place.sense * s;
   PlaceMotion moved(std::move(rows), motion.join,
                     place.curve->closed() ? RowCurve::unbounded : std::pair(place.low, place.high));
   note_jumps(motion, place, *moved.rows(), findings);

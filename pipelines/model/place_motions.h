@@ -16,6 +16,7 @@ struct MovedPlace {
   const ReferenceCurve* curve;
   double s;                 ///< where it is at the start [m]
   bool from_start = false;  ///< the rows count from there on; else they are reference arc lengths
+  double sense = 1;         ///< -1: rows and speed count towards the beam's start
   /// Where it can be, of an open curve [m].
   double low = curve->start(), high = curve->end();
 };

@@ -92,13 +92,6 @@ void wind(double tension, const BeamProperties& properties, Reel& reel) {
   }
 }
 
-CasePlaceMotion along_beam(CasePlaceMotion paid_out, bool at_start) {
-  if (!at_start) return paid_out;
-  if (paid_out.speed) *paid_out.speed = -*paid_out.speed;
-  for (auto& [time, length] : paid_out.table) length = -length;
-  return paid_out;
-}
-
 TimeTable times(double factor, TimeTable rows) {
   for (auto& [time, value] : rows) value *= factor;
   return rows;
@@ -165,12 +158,13 @@ void add_reels(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
     wind(reel.stored_tension, beam.properties, *mouth.reel);
     const double full = farthest(mouth, held[b], model),
                  empty = reel.at_start ? beam.curve.start() : beam.curve.end();
-    mouth.motion = place_motion_of(along_beam(reel.motion, reel.at_start),
+    mouth.motion = place_motion_of(reel.motion,
                                    {.path = reel.path,
                                     .beam = reel.beam,
                                     .curve = &beam.curve,
                                     .s = s,
                                     .from_start = true,
+                                    .sense = -towards_end,
                                     .low = std::min(empty, full),
                                     .high = std::max(empty, full)},
                                    analysis.end_time, findings);

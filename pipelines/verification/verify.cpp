@@ -127,6 +127,7 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, energy_problems());
   append(all, rope_problems());
   append(all, eyelet_problems());
+  append(all, reel_problems());
   append(all, rope_motion_problems());
   append(all, sliding_problems());
   return all;

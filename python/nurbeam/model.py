@@ -356,6 +356,19 @@ class Model:
         `path`, `inertia`, `motion`, `force`, `friction` and the others of the case file."""
         self.add("eyelets", name=name, beam=beam, at=at, position=position, equilibrium=equilibrium, **keys)
 
+    def add_reel(
+        self,
+        name: str,
+        beam: Beam | str,
+        end: str,
+        stored: Quantity,
+        **keys: Any,
+    ) -> None:
+        """Puts the "start" or the "end" of a beam on a reel, with a length that is stored on it [m] besides what is
+        drawn. `keys`: `motion`, `force`, `inertia`, `friction`, `feed`, `on`, `at_empty` and the others of the case
+        file."""
+        self.add("reels", name=name, beam=beam, end=end, stored=stored, **keys)
+
     def add_connector(
         self,
         name: str,

@@ -414,8 +414,10 @@ RestReport find_held_equilibrium(MeshedState& at, const std::function<bool()>& i
   return RestSearch(at, LengthControl{}, interrupted).held_equilibrium();
 }
 
-RestReport find_start(MeshedState& at, const LengthControl& control,
-                      const std::function<bool()>& interrupted) {
+namespace {
+
+RestReport find_still_start(MeshedState& at, const LengthControl& control,
+                            const std::function<bool()>& interrupted) {
   const std::vector<bool> slides = sliding_at_rest(at.system->model(), StaticPlace::held);
   const std::vector<bool> firmly = firmly_sliding(at.system->model(), slides);
   const MeshedState drawn = at;
@@ -433,6 +435,24 @@ RestReport find_start(MeshedState& at, const LengthControl& control,
     return report;
   }
   if (!report.failure && !report.interrupted) add_held(at, slides, report);
+  return report;
+}
+
+}  // namespace
+
+RestReport find_start(MeshedState& at, const LengthControl& control,
+                      const std::function<bool()>& interrupted) {
+  const std::shared_ptr<const BeamModel> model = at.system->shared_model();
+  if (std::ranges::none_of(model->beams, [](const Beam& beam) { return beam.flow != 0; }))
+    return find_still_start(at, control, interrupted);
+  auto running = std::make_shared<BeamModel>(*model);
+  running->runs_at_rest = true;
+  const auto in_model = [&](std::shared_ptr<const BeamModel> of) {
+    at.system = std::make_shared<BeamSystem>(std::move(of), at.system->mesh().plan, at.system->held());
+  };
+  in_model(std::move(running));
+  RestReport report = find_still_start(at, control, interrupted);
+  in_model(model);
   return report;
 }
 

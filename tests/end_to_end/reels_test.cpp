@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/end_to_end/case_run.h"
+
+namespace nurbeam {
+namespace {
+
+using test::CaseRun;
+
+// A rope of 1 kg/m and 4 m that hangs down from a reel, with 20 kg at its end; `more` are keys beside it.
+std::string hanging(const std::string& reel, const std::string& analysis, const std::string& more = "") {
+  return R"({ "nurbeam": 1,
+    "beams": [{ "name": "rope", "axis": { "polyline": [[0, 0, 0], [0, 0, -4]] }, "stress_free": "straight",
+      "section": { "area": 1e-4, "second_moment": 1e-12 },
+      "material": { "density": 10000, "youngs_modulus": 2e11, "damping": 1e-4 }, "elements": { "max_length": 0.5 } }],
+    "bodies": [{ "name": "load", "mass": 20, "fastened": { "beam": "rope", "at": "end" } }],
+    "reels": [{ "name": "drum", "beam": "rope", "end": "start", )" +
+         reel + R"( }], "analysis": { )" + analysis + R"( }, "output": { "report": false })" + more + " }";
+}
+
+constexpr const char* motion = R"("initial": "equilibrium", "end_time": 2, "step": 1e-3)";
+
+TEST(Reels, HoldTheRopeInStatics) {
+  const CaseRun run = test::run_text(hanging(R"("stored": 5)", R"("type": "static")"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("drum.axial_force [N]"), 24 * 9.81, 1e-3);
+  EXPECT_NEAR(run.last("drum.fz [N]"), -24 * 9.81, 1e-3);  // of the rope on the drum, without what is stored
+  EXPECT_NEAR(run.last("drum.stored [m]"), 5, 1e-12);
+  EXPECT_NEAR(run.last("drum.out [m]"), 4, 1e-12);
+}
+
+// At the other end of the rope the reel does the same.
+TEST(Reels, StandAtEitherEnd) {
+  std::string at_end = hanging(R"("stored": 5, "motion": { "table": [[0, 0], [1, 1], [2, 3]] })", motion);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    at_end.replace(at_end.find(from), from.size(), to);
+  };
+  const CaseRun start = test::run_text(at_end);
+  replace("[[0, 0, 0], [0, 0, -4]]", "[[0, 0, -4], [0, 0, 0]]");
+  replace(R"("at": "end")", R"("at": "start")");
+  replace(R"("end": "start")", R"("end": "end")");
+  const CaseRun end = test::run_text(at_end);
+  ASSERT_EQ(start.code, 0) << start.messages;
+  ASSERT_EQ(end.code, 0) << end.messages;
+  for (const char* column : {"drum.out [m]", "drum.rate [m/s]", "drum.axial_force [N]", "drum.fz [N]",
+                             "drum.power [W]", "drum.drive_force [N]", "load.z [m]", "energy.total [J]"})
+    EXPECT_NEAR(start.last(column), end.last(column), 1e-6 * std::abs(start.last(column)) + 1e-9) << column;
+  EXPECT_NEAR(start.last("drum.out [m]"), 7, 1e-9);
+}
+
+// A load that falls is stopped by the end that is tied to the drum, at a loss; or takes the rope along.
+TEST(Reels, StopOrLetGoWhereTheyAreEmpty) {
+  const std::string falling = R"("stored": 2, "inertia": 1)";
+  const CaseRun tied = test::run_text(hanging(falling, motion));
+  ASSERT_EQ(tied.code, 0) << tied.messages;
+  EXPECT_NEAR(tied.last("drum.stored [m]"), 0, 1e-6);
+  EXPECT_NEAR(tied.last("load.z [m]"), -6, 0.05);
+  const CaseRun loose = test::run_text(hanging(falling + R"(, "at_empty": "leave")", motion));
+  ASSERT_EQ(loose.code, 0) << loose.messages;
+  EXPECT_LT(loose.last("load.z [m]"), -12);
+  EXPECT_TRUE(std::isnan(loose.last("drum.stored [m]")));
+  // The load falls freely from where the rope left: (m + rho L + J) a = (m + rho l) g before.
+  EXPECT_NEAR(loose.last("load.vz [m/s]"), -9.81 * 2, 1);
+}
+
+// What a brake takes is booked.
+TEST(Reels, AreBraked) {
+  const std::string text =
+      hanging(R"("stored": 5, "inertia": 3, "friction": { "force": 100, "quadratic": 4 })", motion);
+  const CaseRun whole = test::run_text(text);
+  ASSERT_EQ(whole.code, 0) << whole.messages;
+  EXPECT_LT(whole.last("drum.stored [m]"), 4.5);
+  EXPECT_GT(whole.last("energy.dissipated [J]"), 10);
+  EXPECT_NEAR(whole.last("energy.total [J]"), whole.value(0, "energy.total [J]"), 1e-3);
+}
+
+TEST(Reels, TellWhatTheyCannotTakeIn) {
+  const auto refused = [](const std::string& text) {
+    const CaseRun run = test::run_text(text);
+    EXPECT_EQ(run.code, 2) << run.messages;
+    return run.messages;
+  };
+  const auto says = [](const std::string& messages, const std::string& text) {
+    EXPECT_NE(messages.find(text), std::string::npos) << messages;
+  };
+  says(refused(hanging(R"("stored": 5)", motion,
+                       R"(, "supports": [{ "beam": "rope", "at": "start", "type": "pinned" }])")),
+       "the reel holds that end: remove what else does");
+  says(refused(hanging(R"("stored": 5, "feed": "spool", "inertia": 3)", motion)), "a spool does not turn");
+  says(refused(hanging(R"("stored": 5, "feed": "spool", "motion": { "speed": -1 })", motion)),
+       "takes rope in, which a spool cannot");
+  says(refused(hanging(R"("stored": 5, "pickup": 2)", motion)), "is of a spool");
+  says(refused(hanging(R"("stored": 5, "friction": { "force": 3, "law": "capstan" })", motion)),
+       "the only law for a reel");
+  says(refused(hanging(R"("stored": 5, "motion": { "table": [[0, 0], [1, 6]] })", motion)),
+       "must be between -3.5 and 5 m");
+  says(refused(hanging(R"("stored": 5)", motion,
+                       R"(, "loads": [{ "beam": "rope", "force_per_length": [1, 0, 0] }])")),
+       "part of which is on the reel");
+}
+
+}  // namespace
+}  // namespace nurbeam
