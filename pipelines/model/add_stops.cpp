@@ -29,7 +29,7 @@ class Stops {
         refuse("stands at the end of beam " + in_quotes(from_.beam) +
                ", where \"at_beam_end\": \"stop\" stops body " + in_quotes(name(j)) +
                " already; keep one of them");
-      if (from_.buffer && !curve_.closed() && (s == 0 || s == curve_.length()))
+      if (from_.buffer && !curve_.closed() && (s == curve_.start() || s == curve_.end()))
         refuse("is an end of beam " + in_quotes(from_.beam) +
                ", where a buffer has no way to be pressed in; put it as far before the end as it may be, or "
                "leave \"stiffness\" out for a hard stop");
@@ -74,7 +74,8 @@ class Stops {
   }
 
   bool at_end(int joint, double s) const {
-    return !curve_.closed() && !model_.riders[joint].leave_at_end && (s == 0 || s == curve_.length());
+    return !curve_.closed() && !model_.riders[joint].leave_at_end &&
+           (s == curve_.start() || s == curve_.end());
   }
 
   void check_side(int joint, double start, double s, double same) {

@@ -23,7 +23,7 @@ LoadAtPlace load_at_place(const CaseLoad& load, int b, const DrawnBeam& beam, co
                           const CaseAnalysis& analysis, Findings& findings) {
   const double s = beam.material_coordinate(place_on(beam, load.at, load.path, findings));
   const double speed = load.moving_speed.value_or(0);
-  const bool at_start = s == 0, at_end = s == beam.curve.length();
+  const bool at_start = s == beam.curve.start(), at_end = s == beam.curve.end();
   if (!beam.curve.closed() && ((at_start && speed < 0) || (at_end && speed > 0)))
     findings.warn(load.path + ".moves.speed", "is " + text_of(speed) +
                                                   " m/s: the force leaves the beam at once and does "

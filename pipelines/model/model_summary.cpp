@@ -94,7 +94,7 @@ Json to_json(const Beam& beam, const BeamSource& source) {
 Eigen::Vector3d outward(const BeamModel& model, const Support& support) {
   const ReferenceCurve& curve = model.beams[support.beam].curve;
   if (support.s <= 0) return -curve.tangent(0);
-  if (support.s >= curve.length()) return curve.tangent(curve.length(), true);
+  if (support.s >= curve.end()) return curve.tangent(curve.end(), true);
   return -model.gravity.stableNormalized();
 }
 

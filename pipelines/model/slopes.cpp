@@ -29,7 +29,7 @@ struct Obstacle {
 
 bool is_at_end(const BeamModel& model, int b, double s) {
   const ReferenceCurve& curve = model.beams[b].curve;
-  return !curve.closed() && (s == 0 || s == curve.length());
+  return !curve.closed() && (s == curve.start() || s == curve.end());
 }
 
 bool is_same(const BeamModel& model, int b, double s, double t) {
@@ -139,7 +139,7 @@ double tension_at(const BeamSystem& system, const State& state, const CarriedByS
   double least = std::numeric_limits<double>::infinity();
   for (const double away : {-1e-7, 1e-7}) {
     const double beside = curve.wrapped(s + away * curve.length());
-    if (!curve.closed() && (beside < 0 || beside > curve.length())) continue;
+    if (!curve.closed() && (beside < curve.start() || beside > curve.end())) continue;
     const int span = find_span(system.model(), system.mesh(), state.q, b, beside);
     const MeshSpan& of = system.mesh().spans[span];
     const double middle = (of.start(state.q) + of.end(state.q)) / 2;

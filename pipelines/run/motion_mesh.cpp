@@ -70,9 +70,11 @@ class MotionMesh {
 
   std::optional<Course> course() const {
     std::vector<ProbePlace> places;
-    for (const int b : beams_)
+    for (const int b : beams_) {
+      const ReferenceCurve& curve = built_.model.beams[b].curve;
       for (int k = 0; k < places_of_beam; ++k)
-        places.push_back({.beam = b, .s = built_.model.beams[b].curve.length() * k / (places_of_beam - 1)});
+        places.push_back({.beam = b, .s = curve.start() + curve.length() * k / (places_of_beam - 1)});
+    }
     Course course;
     SimulationObserver observer;
     observer.contents = {.beams = false, .sections = false, .reactions = false, .measures = false};

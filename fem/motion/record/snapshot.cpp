@@ -151,6 +151,26 @@ double section_place(const BeamSystem& system, const ProbePlace& probe, const Sp
   return probe.s;
 }
 
+// Whether a place of a beam is on a reel, where it has no element.
+bool is_stored(const BeamSystem& system, const State& state, const ProbePlace& probe) {
+  if (system.model().beams[probe.beam].rigid || system.model().beams[probe.beam].is_ring()) return false;
+  const Mesh& mesh = system.mesh();
+  const int first = mesh.first_span[probe.beam], last = mesh.first_span[probe.beam + 1] - 1;
+  const double little = same_place * system.model().beams[probe.beam].curve.length();
+  return probe.s < mesh.spans[first].start(state.q) - little ||
+         probe.s > mesh.spans[last].end(state.q) + little;
+}
+
+ProbeRecord empty_probe() {
+  ProbeRecord record;
+  record.position = record.velocity = record.displacement =
+      Eigen::Vector3d::Constant(SectionRecord::no_number);
+  for (const auto value : {&SectionRecord::axial_force, &SectionRecord::bending_moment,
+                           &SectionRecord::torque, &SectionRecord::shear_force, &SectionRecord::stress})
+    record.section.*value = SectionRecord::no_number;
+  return record;
+}
+
 // The record of a place without its section.
 ProbeRecord record_place(const BeamSystem& system, const State& state, const ProbePlace& probe) {
   const MaterialPoint<3> p = probe.span < 0 ? material_point(system, state, probe.beam, probe.s)
@@ -240,8 +260,9 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
   snapshot.time = state.t;
   if (contents.beams) snapshot.beams = record_beams(system, state, take);
   for (std::size_t i = 0; contents.probes && i < probes.size(); ++i)
-    snapshot.probes.push_back(contents.sections ? record_probe(system, state, probes[i])
-                                                : record_place(system, state, probes[i]));
+    snapshot.probes.push_back(is_stored(system, state, probes[i]) ? empty_probe()
+                              : contents.sections                 ? record_probe(system, state, probes[i])
+                                                                  : record_place(system, state, probes[i]));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
