@@ -62,18 +62,20 @@ std::string slope_hint(const BeamModel& model) {
              : "";
 }
 
-// Only the ring of an eyelet has no mass.
-bool is_eyelet(const BeamModel& model, int rider) { return model.body_of(model.riders[rider]).mass == 0; }
+// Only the rings of eyelets and reels have no mass.
+bool is_ring(const BeamModel& model, int rider) { return model.body_of(model.riders[rider]).mass == 0; }
 
 // On a beam that deforms bodies that come near each other are as good as met.
 std::string meeting_text(const Failure& failure, const BeamModel& model) {
   const Rider& joint = model.riders[failure.rider];
-  const bool has_eyelet = is_eyelet(model, failure.rider) || is_eyelet(model, failure.other);
+  const bool has_ring = is_ring(model, failure.rider) || is_ring(model, failure.other);
   const auto named = [&](int rider) {
-    const std::string kind = !has_eyelet ? "" : is_eyelet(model, rider) ? "eyelet " : "sliding body ";
+    const std::string kind = !has_ring               ? ""
+                             : is_ring(model, rider) ? (model.riders[rider].reel ? "reel " : "eyelet ")
+                                                     : "sliding body ";
     return kind + "\"" + model.body_of(model.riders[rider]).name + "\"";
   };
-  const std::string both = (has_eyelet ? "" : "sliding bodies ") + named(failure.rider) + " and " +
+  const std::string both = (has_ring ? "" : "sliding bodies ") + named(failure.rider) + " and " +
                            named(failure.other),
                     where = " on beam \"" + model.beam_of(joint).name +
                             "\" at t = " + text_of(failure.time, 8) + " s";
@@ -81,8 +83,9 @@ std::string meeting_text(const Failure& failure, const BeamModel& model) {
   const std::string near = both + " are " + text_of(failure.distance, 3) + " m apart" + where +
                            ", and nearer than " + text_of(failure.nearest) +
                            " m, a twentieth of an element, their motion is not followed; ";
-  if (has_eyelet)
-    return near + "nothing passes an eyelet: end the run before, place it elsewhere, or take more elements";
+  if (has_ring)
+    return near +
+           "nothing passes an eyelet or a reel: end the run before, place it elsewhere, or take more elements";
   return near + "give a stop between them with a \"gap\" of at least " + text_of(2 * failure.nearest) +
          " m, or more elements";
 }

@@ -1,7 +1,9 @@
 #include "pipelines/model/features.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -19,7 +21,7 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 // Collects names; a name that all_features() lacks is a mistake of this file.
 class Named {
  public:
-  void add(const char* name, bool is_used = true) {
+  void add(const std::string& name, bool is_used = true) {
     if (!is_used) return;
     assert(all_features().contains(name));
     found_.insert(name);
@@ -37,6 +39,7 @@ bool has_equal_bending(const SectionStiffness& s) {
 }
 
 void add_element(const Beam& beam, Named& named) {
+  named.add("beam that runs in its shape", beam.flow != 0);
   const BeamProperties& p = beam.properties;
   named.add("element: material weights", beam.weights == WeightRule::material);
   named.add("element: constant weights", beam.weights == WeightRule::constant);
@@ -88,6 +91,7 @@ void add_friction(const Friction& friction, Named& named) {
   named.add("friction: bearing", friction.coefficient > 0 && friction.law == Friction::Law::bearing);
   named.add("brake", !friction.force.empty() || !friction.force_over.empty());
   named.add("viscous resistance", friction.viscous > 0);
+  named.add("quadratic resistance", friction.quadratic > 0);
 }
 
 void add_rider(const Rider& rider, const Structure& structure, Named& named) {
@@ -101,6 +105,10 @@ void add_rider(const Rider& rider, const Structure& structure, Named& named) {
   named.add("turning pulley", rider.turning_inertia > 0);
   named.add("force that drives a pulley", !rider.drive_force.empty());
   if (rider.friction) add_friction(*rider.friction, named);
+  if (!rider.reel) return;
+  named.add("drum", rider.reel->feed == Reel::Feed::drum);
+  named.add("spool", rider.reel->feed == Reel::Feed::spool);
+  named.add("rope wound under tension", rider.reel->strain_energy > 0);
 }
 
 void add_connector(const Connector& connector, Named& named) {
@@ -120,7 +128,14 @@ void add_stop(const Stop& stop, Named& named) {
   named.add("stop between bodies", stop.other >= 0);
 }
 
-void add_constraint(const Constraint& constraint, Named& named) {
+// What a beam runs through or is wound on, by its ring.
+const char* ring_name(int body, const BeamModel& model) {
+  const bool is_reel =
+      std::ranges::any_of(model.riders, [&](const Rider& rider) { return rider.body == body && rider.reel; });
+  return is_reel ? "reel" : "eyelet";
+}
+
+void add_constraint(const Constraint& constraint, const BeamModel& model, Named& named) {
   std::visit(Overloaded{[&](const Support& support) {
                           named.add("clamped", support.clamped);
                           named.add("fork", support.fork);
@@ -136,12 +151,14 @@ void add_constraint(const Constraint& constraint, Named& named) {
                           named.add("hinge with an axis", joint.axis.has_value());
                         },
                         [&](const HeldBody& held) {
-                          named.add("eyelet");
-                          named.add("eyelet on a path", held.motion.has_value());
+                          const std::string ring = ring_name(held.body, model);
+                          named.add(ring);
+                          named.add(ring + " on a path", held.motion.has_value());
                         },
-                        [&](const CarriedBody&) {
-                          named.add("eyelet");
-                          named.add("eyelet on a body");
+                        [&](const CarriedBody& carried) {
+                          const std::string ring = ring_name(carried.body, model);
+                          named.add(ring);
+                          named.add(ring + " on a body");
                         }},
              constraint);
 }
@@ -180,6 +197,11 @@ Features features_of(const BeamModel& model) {
   Named named;
   named.add(model.dimension == 2 ? "plane" : "space");
   named.add("gravity", !model.gravity.isZero(0));
+  if (model.field) {
+    named.add("frame that turns", !model.field->rate.isZero(0));
+    named.add("gradient of gravity", model.field->radial.has_value());
+    named.add("attraction of a point", model.field->attraction != 0);
+  }
   for (const Beam& beam : model.beams) add_beam(beam, named);
   for (const Rider& rider : model.riders) add_rider(rider, model, named);
   for (const Body& body : model.bodies) {
@@ -188,7 +210,7 @@ Features features_of(const BeamModel& model) {
   }
   for (const Connector& connector : model.connectors) add_connector(connector, named);
   for (const Stop& stop : model.stops) add_stop(stop, named);
-  for (const Constraint& constraint : model.constraints) add_constraint(constraint, named);
+  for (const Constraint& constraint : model.constraints) add_constraint(constraint, model, named);
   for (const Force& force : model.forces) add_force(force, named);
   return std::move(named).found();
 }
@@ -213,8 +235,10 @@ Features features_of(const ModesOptions& options) {
 
 const Features& all_features() {
   static const Features all{"air drag",
+                            "attraction of a point",
                             "axial strain: assumed",
                             "axial strain: pointwise",
+                            "beam that runs in its shape",
                             "brake",
                             "buckling",
                             "buffer",
@@ -233,6 +257,7 @@ const Features& all_features() {
                             "damping of strain",
                             "damping of tension",
                             "discontinuous slope",
+                            "drum",
                             "element: constant weights",
                             "element: material weights",
                             "element: ones for weights",
@@ -244,12 +269,14 @@ const Features& all_features() {
                             "eyelet on a path",
                             "follows the section",
                             "force of a program",
-                            "force that drives a pulley",
                             "force per length",
+                            "force that drives a pulley",
                             "fork",
+                            "frame that turns",
                             "friction: bearing",
                             "friction: capstan",
                             "friction: coulomb",
+                            "gradient of gravity",
                             "gravity",
                             "guided",
                             "hard stop",
@@ -278,14 +305,20 @@ const Features& all_features() {
                             "plane",
                             "point force",
                             "prescribed place",
+                            "quadratic resistance",
+                            "reel",
+                            "reel on a body",
+                            "reel on a path",
                             "release",
                             "rigid joint",
                             "rigid track",
                             "ring",
                             "rod",
+                            "rope wound under tension",
                             "sliding body",
                             "slope discontinuity of a rope",
                             "space",
+                            "spool",
                             "spring",
                             "statics",
                             "stop between bodies",
