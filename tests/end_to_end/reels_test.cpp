@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -78,6 +79,40 @@ TEST(Reels, AreBraked) {
   EXPECT_LT(whole.last("drum.stored [m]"), 4.5);
   EXPECT_GT(whole.last("energy.dissipated [J]"), 10);
   EXPECT_NEAR(whole.last("energy.total [J]"), whole.value(0, "energy.total [J]"), 1e-3);
+}
+
+// The known answers of samples/ropes, as its page tells them.
+TEST(Reels, GiveTheSamplesTheirNumbers) {
+  const auto of = [](const char* name) {
+    const CaseRun run =
+        test::run_file(test::sample(std::string("ropes/") + name + ".json"), {"output.report=false"});
+    EXPECT_EQ(run.code, 0) << run.messages;
+    return run;
+  };
+  const CaseRun atwood = of("atwood");
+  EXPECT_NEAR(atwood.value(0, "heavy.z [m]") - atwood.last("heavy.z [m]"), 0.6852766, 1e-4);
+  const CaseRun winch = of("winch");
+  EXPECT_NEAR(winch.last("load.z [m]") - winch.value(0, "load.z [m]"), 14.8712429, 0.02);
+  EXPECT_NEAR(winch.last("winch.axial_force [N]"), 3576.71, 1);
+  const CaseRun arrested = of("arresting_gear");
+  double stop = 0;
+  for (std::size_t i = 0; i < arrested.rows.size(); ++i)
+    stop = std::max(stop, arrested.value(i, "aircraft.y [m]"));
+  EXPECT_NEAR(stop, 61.36, 0.3);
+  const CaseRun tether = of("tether");
+  for (std::size_t i = 0; i < tether.rows.size(); ++i)
+    if (tether.value(i, "time [s]") == 1500) {
+      EXPECT_NEAR(
+          std::atan2(tether.value(i, "satellite.y [m]"), tether.value(i, "satellite.x [m]")) * 180 / M_PI,
+          -48.8166444, 0.15);
+    }
+  const CaseRun tackle = of("tackle");
+  double least = 1e9, most = 0;
+  for (std::size_t i = 5; i < tackle.rows.size(); ++i) {
+    least = std::min(least, -tackle.value(i, "pull.fz [N]"));
+    most = std::max(most, -tackle.value(i, "pull.fz [N]"));
+  }
+  EXPECT_NEAR((least + most) / 2, 357.67, 6);
 }
 
 TEST(Reels, TellWhatTheyCannotTakeIn) {
