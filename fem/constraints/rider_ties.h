@@ -5,6 +5,7 @@
 #include "fem/constraints/body_on_section.h"
 #include "fem/constraints/held_place.h"
 #include "fem/constraints/passed_roll.h"
+#include "fem/constraints/sleeve.h"
 #include "fem/mesh/binding.h"
 
 namespace nurbeam {
@@ -49,6 +50,7 @@ struct RiderTies {
     if constexpr (D == 3)
       if (mode == Carried::node && !rider.continuous_slope && at.structure.beam_of(rider).has_torsion())
         add(PassedRoll(at, j));
+    if (rider.direction && mode == Carried::node) add(HeldSlope<D>(at, j));
     const int place = at.mesh.riders[j].place;
     if (mode == Carried::stopped || binding.holds(j) || at.mesh.plan.holds(j))
       add(HeldPlace<D>(place, at.mesh.plan.places[j]));

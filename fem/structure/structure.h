@@ -56,7 +56,9 @@ struct Rider {
   bool as_point = false;  ///< carried as a point of a fixed mesh, at every place
   /// I/r^2 of a pulley that turns as the beam runs over it: inertia against a change of the place [kg]
   double turning_inertia = 0;
-  TimeTable drive_force = {};     ///< on the body towards greater s, from the beam [N]; empty: none
+  TimeTable drive_force = {};  ///< on the body towards greater s, from the beam [N]; empty: none
+  /// A sleeve holds the beam's direction too; the rider has one slope, and is a node there [-].
+  std::optional<Eigen::Vector3d> direction = {};
   std::optional<Reel> reel = {};  ///< the rider is the mouth of a reel, always a node: the end of its beam
 
   bool is_offset() const { return follows_section && offset != Eigen::Vector2d::Zero(); }

@@ -84,6 +84,7 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   }
   for (const CaseEyelet& eyelet : resolved.eyelets) {
     if (eyelet.position) forces.push_back(*eyelet.position - origin);
+    if (eyelet.direction) forces.push_back(*eyelet.direction);
     for (const auto& [time, place] : eyelet.moves) forces.push_back(place - origin);
   }
   for (const CaseReel& reel : resolved.reels)

@@ -111,7 +111,7 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
                 .s = place_on(beams[b], eyelet.at, eyelet.path, findings),
                 .motion = {},
                 .release = analysis.type == CaseAnalysis::Type::dynamic ? eyelet.release : std::nullopt,
-                .continuous_slope = eyelet.continuous_slope,
+                .continuous_slope = eyelet.continuous_slope || eyelet.direction.has_value(),
                 .leave_at_end = eyelet.leave_at_end,
                 .rest = eyelet.rest,
                 .friction = ring_friction(eyelet.friction, analysis, model.beams[b]),
@@ -130,6 +130,8 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
     const Rings::Place ring = rings.place_of({eyelet.on, eyelet.position, eyelet.moves}, drawn);
     check_place(eyelet, (ring.position - drawn).norm(), analysis, model.beams[b].curve.length(), findings);
     check_apart(eyelet, rider, model, findings);
+    rider.direction =
+        sleeve_direction(eyelet.direction, eyelet.path, model.beams[b].curve, rider.s, frame, findings);
     rings.add(eyelet.name, drawn, ring);
     model.riders.push_back(rider);
   }

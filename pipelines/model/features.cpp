@@ -79,7 +79,8 @@ void add_beam(const Beam& beam, Named& named) {
   named.add("initial velocity", beam.velocity.has_value());
   named.add("pipe bends", !beam.bends.empty());
   for (const HomeNode& node : beam.home) {
-    named.add("slope discontinuity of a rope", node.kind == NodeKind::kink || node.sharp || node.sharp_clamp);
+    named.add("sleeve", "slope discontinuity of a rope",
+              node.kind == NodeKind::kink || node.sharp || node.sharp_clamp);
     named.add("corner", node.kind == NodeKind::rigid);
     named.add("hinge", node.kind == NodeKind::hinge);
   }
@@ -105,6 +106,7 @@ void add_rider(const Rider& rider, const Structure& structure, Named& named) {
   named.add("turning pulley", rider.turning_inertia > 0);
   named.add("force that drives a pulley", !rider.drive_force.empty());
   if (rider.friction) add_friction(*rider.friction, named);
+  named.add("sleeve", rider.direction.has_value());
   if (!rider.reel) return;
   named.add("drum", rider.reel->feed == Reel::Feed::drum);
   named.add("spool", rider.reel->feed == Reel::Feed::spool);

@@ -168,6 +168,7 @@ void add_reels(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
                                     .low = std::min(empty, full),
                                     .high = std::max(empty, full)},
                                    analysis.end_time, findings);
+    mouth.direction = sleeve_direction(reel.direction, reel.path, beams[b].curve, s, frame, findings);
     const Eigen::Vector3d drawn = beam.curve.position(s);
     rings.add(reel.name, drawn, rings.place_of({reel.on, {}, reel.moves}, drawn));
     model.riders.push_back(mouth);

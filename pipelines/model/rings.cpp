@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fem/mesh/drawn_coordinates.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 
@@ -45,6 +46,20 @@ std::optional<Friction> ring_friction(std::optional<Friction> said, const CaseAn
   if (!said->stick_stiffness)
     said->stick_stiffness = beam.properties.axial_stiffness * beam.home_intervals() / beam.curve.length();
   return said;
+}
+
+std::optional<Eigen::Vector3d> sleeve_direction(const std::optional<Eigen::Vector3d>& said,
+                                                const std::string& path, const ReferenceCurve& curve,
+                                                double s, const ModelFrame& frame, Findings& findings) {
+  if (!said) return {};
+  constexpr double least_cosine = 0.5;
+  const Eigen::Vector3d own = frame.direction_to_local(*said), drawn = curve.tangent(s).normalized();
+  if (own.norm() > 0 && own.normalized().dot(drawn) >= least_cosine) return own;
+  findings.error(path + ".direction",
+                 "is " + text_of(*said) +
+                     "; must be within 60 degrees of the beam as drawn there, towards its end: " +
+                     text_of(frame.direction_to_world(drawn)));
+  return {};
 }
 
 }  // namespace nurbeam

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/model/beam_model.h"
+#include "pipelines/diagnostics/findings.h"
 #include "pipelines/model/model_frame.h"
 #include "pipelines/model/resolved_case.h"
 
@@ -51,5 +52,11 @@ class Rings {
 /// element: what has no mass has no frequency to give it.
 std::optional<Friction> ring_friction(std::optional<Friction> said, const CaseAnalysis& analysis,
                                       const Beam& beam);
+
+/// The direction of a sleeve in the model's own axes; an error where it has no length or is more than 60
+/// degrees from the drawing.
+std::optional<Eigen::Vector3d> sleeve_direction(const std::optional<Eigen::Vector3d>& said,
+                                                const std::string& path, const ReferenceCurve& curve,
+                                                double s, const ModelFrame& frame, Findings& findings);
 
 }  // namespace nurbeam

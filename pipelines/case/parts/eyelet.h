@@ -18,6 +18,7 @@ struct CaseEyelet {
   TimeTable force = {};                            ///< towards the beam's start, on the beam [N]
   std::optional<double> release = {};              ///< the beam is held until then [s]
   bool continuous_slope = false;
+  std::optional<Eigen::Vector3d> direction = {};  ///< of a sleeve
   StaticPlace rest = StaticPlace::free_or_held;
   bool leave_at_end = true;  ///< false: stop
   std::optional<Friction> friction = {};
@@ -60,6 +61,10 @@ inline Fields<CaseEyelet> eyelet_fields() {
           choice_field(&E::continuous_slope, "slope", {{"continuous", true}, {"discontinuous", false}},
                        "whether the beam may have a kink in it")
               .otherwise("discontinuous"),
+          field(
+              &E::direction, "direction", vector(Dimension::number),
+              "of a sleeve, which holds the direction of the beam too: along the beam, towards its end; a ring "
+              "leaves it free"),
           choice_field(
               &E::rest, "equilibrium", {{"held", StaticPlace::held}, {"free", StaticPlace::free}},
               "where statics find the beam: with the place `at` in it, or free to run through it; when "

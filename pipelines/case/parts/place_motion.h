@@ -22,8 +22,8 @@ Field<Owner> place_motion_field(CasePlaceMotion Owner::*member, const std::strin
   const Shape motion = object(
       {{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "constant speed along the beam"},
        {"ramp", quantity(Dimension::time, plausible(0, 1e9)),
-        "time in which the speed is reached from rest, evenly; the speed is there at once when omitted", false,
-        "speed"},
+        "time in which the speed is reached from rest, evenly; the speed is there at once when omitted",
+        false, "speed"},
        {"table", table(Dimension::length),
         of_table + " over time, constant outside the rows; between them smooth, with a continuous speed and "
                    "acceleration"},

@@ -21,6 +21,7 @@ struct CaseReel {
   std::optional<Friction> friction = {};
   double stored_tension = 0;  ///< [N]
   bool leave_at_empty = false;
+  std::optional<Eigen::Vector3d> direction = {};  ///< of its mouth
 };
 
 inline Fields<CaseReel> reel_fields() {
@@ -71,6 +72,10 @@ inline Fields<CaseReel> reel_fields() {
               &R::leave_at_empty, "at_empty", {{"stop", false}, {"leave", true}},
               "when nothing is left on it: stop: the beam's end is tied to it; leave: the end comes off")
               .otherwise("stop"),
+          field(
+              &R::direction, "direction", vector(Dimension::number),
+              "of a mouth that holds the direction of the beam too, as a guide tube: along the beam, towards its "
+              "end; free when omitted"),
       },
       {{{"path", "on"}, false}, {{"motion", "force"}, false}}};
 }
