@@ -79,8 +79,7 @@ void add_beam(const Beam& beam, Named& named) {
   named.add("initial velocity", beam.velocity.has_value());
   named.add("pipe bends", !beam.bends.empty());
   for (const HomeNode& node : beam.home) {
-    named.add("sleeve", "slope discontinuity of a rope",
-              node.kind == NodeKind::kink || node.sharp || node.sharp_clamp);
+    named.add("slope discontinuity of a rope", node.kind == NodeKind::kink || node.sharp || node.sharp_clamp);
     named.add("corner", node.kind == NodeKind::rigid);
     named.add("hinge", node.kind == NodeKind::hinge);
   }
@@ -318,6 +317,7 @@ const Features& all_features() {
                             "rod",
                             "rope wound under tension",
                             "sliding body",
+                            "sleeve",
                             "slope discontinuity of a rope",
                             "space",
                             "spool",
