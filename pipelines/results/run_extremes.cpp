@@ -17,7 +17,6 @@ void RunExtremes::keep(const RunExtreme& candidate, bool least) {
     }
   }
   RunExtreme& kept = list_[next_++];
-  if (kept.s && !candidate.s) return;  // of a body that has left its beam
   const bool more = least ? candidate.value < kept.value : std::abs(candidate.value) > std::abs(kept.value);
   if (more || std::isnan(kept.value)) kept = candidate;
 }
@@ -35,8 +34,9 @@ void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
     const BodyRecord& body = frame.bodies[i];
     const std::string& name = names.bodies.at(i);
-    keep({name + ".speed", "m/s", body.point.velocity.norm(), body.s, frame.time}, false);
-    keep({name + ".joint_force", "N", body.joint_force.norm(), body.s, frame.time}, false);
+    const double counts = body.adrift ? std::nan("") : 1;
+    keep({name + ".speed", "m/s", counts * body.point.velocity.norm(), body.s, frame.time}, false);
+    keep({name + ".joint_force", "N", counts * body.joint_force.norm(), body.s, frame.time}, false);
   }
   for (std::size_t i = 0; i < frame.reactions.size(); ++i) {
     const ReactionRecord& reaction = frame.reactions[i];
@@ -53,7 +53,7 @@ void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
           frame.time},
          quantity == "clearance");
   }
-  for (const auto& [name, energy] : {std::pair{"kinetic", frame.energy.kinetic},
+  for (const auto& [name, energy] : {std::pair{"kinetic", frame.energy.kinetic - frame.energy.adrift},
                                      {"axial", frame.energy.axial},
                                      {"bending", frame.energy.bending}})
     keep({std::string("energy.") + name, "J", energy, std::nullopt, frame.time}, false);

@@ -18,8 +18,8 @@ struct RunExtreme {
 };
 
 /// What stands out in a run: of beams the extremes along them, of bodies speed and joint force, of supports
-/// and joints force and couple, of connectors the force, and the energies. Bodies count on their beam alone:
-/// one that has left it falls.
+/// and joints force and couple, of connectors the force, and the energies. Bodies count on their beam alone,
+/// in the kinetic energy too: one that has left it falls, and so does what hangs on it.
 class RunExtremes {
  public:
   /// Goes on from the numbers() of an earlier part of the run; empty: from its start.

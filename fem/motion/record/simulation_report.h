@@ -109,9 +109,11 @@ struct SimulationReport {
   /// and those for which there was no rest.
   std::vector<LooseBody> loose_bodies;
   double motion_seconds = 0, length_control_seconds = 0;
-  double energy_drift = 0;         ///< largest departure of the total energy from its start [J]
-  double integration_error = 0;    ///< energy drift without what events changed [J]
-  double peak_kinetic_energy = 0;  ///< [J]
+  double energy_drift = 0;       ///< largest departure of the total energy from its start [J]
+  double integration_error = 0;  ///< energy drift without what events changed [J]
+  /// Without bodies that are adrift, whose fall says nothing of the rest: the kinetic energy without theirs,
+  /// the range of gravity's up to the first of them [J].
+  double peak_kinetic_energy = 0;
   EnergyRange strain_energy, gravity_energy;
   double energy_noise = 0;  ///< from energy_noise() [J]
   std::vector<RunEvent> events;

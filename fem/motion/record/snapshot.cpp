@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/motion/record/adrift.h"
 #include "fem/motion/record/element_peaks.h"
 #include "fem/motion/record/measures.h"
 #include "fem/motion/record/sag.h"
@@ -290,6 +291,9 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
   for (std::size_t i = 0; contents.measures && i < model.measures.size(); ++i)
     snapshot.measures.push_back(record_measure(system, state, model.measures[i]));
   if (contents.energy) snapshot.energy = record_energy(energy(system, state));
+  const std::vector<bool> adrift = bodies_adrift(system, state);
+  for (std::size_t i = 0; i < adrift.size(); ++i) snapshot.bodies[i].adrift = adrift[i];
+  if (contents.energy) snapshot.energy.adrift = kinetic_energy_adrift(system, state, adrift);
   return snapshot;
 }
 

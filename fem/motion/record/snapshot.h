@@ -56,6 +56,7 @@ struct BodyRecord {
   /// (0); force of the drive that prescribes its place. NaN without friction or drive [N], [-], [N].
   double friction_force = SectionRecord::no_number, stuck = SectionRecord::no_number,
          drive_force = SectionRecord::no_number;
+  bool adrift = false;  ///< it has left its beam, or hangs on a body that has (bodies_adrift)
 };
 
 /// Force and couple of a support on its beam, or of the second of two joined beams on the first.
@@ -78,6 +79,7 @@ struct EnergyRecord {
   double input = 0;   ///< work of prescribed motions and of loads without weight, since the start [J]
   double total = 0;   ///< conserved total: the sum of energies, less the input [J]
   double spring = 0;  ///< energy of elastic parts other than beams [J]
+  double adrift = 0;  ///< part of the kinetic energy: of bodies that are adrift [J]
 };
 
 /// One accepted step of the integrator.

@@ -186,9 +186,11 @@ void EnergyAccount::record(const Snapshot& snapshot, SimulationReport& report) {
   report.energy_drift = std::max(report.energy_drift, std::abs(drift));
   report.integration_error =
       std::max(report.integration_error, std::abs(drift - given_by_events(report.events)));
-  report.peak_kinetic_energy = std::max(report.peak_kinetic_energy, snapshot.energy.kinetic);
+  const double kinetic = snapshot.energy.kinetic - snapshot.energy.adrift;
+  report.peak_kinetic_energy = std::max(report.peak_kinetic_energy, kinetic);
   report.strain_energy.add(snapshot.energy.axial + snapshot.energy.bending + snapshot.energy.spring);
-  report.gravity_energy.add(snapshot.energy.gravity);
+  const bool falls = std::ranges::any_of(snapshot.bodies, &BodyRecord::adrift);
+  if (!falls) report.gravity_energy.add(snapshot.energy.gravity);
 }
 
 std::optional<double> EnergyAccount::from_nowhere(const BeamSystem& system, const State& state,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/motion/record/adrift.h"
 #include "fem/system/observables.h"
 #include "fem/system/with_assembly.h"
 
@@ -42,6 +43,7 @@ void PeakWatch::prepare(const BeamSystem& system, const State& state) {
       for (const int node : {mesh.spans[i].node_a, mesh.spans[i].node_b})
         of.nodes[node].length += (mesh.spans[i].s_b - mesh.spans[i].s_a) / 2;
   }
+  adrift_ = bodies_adrift(system, state);
   rows_.clear();
   const int constraints = static_cast<int>(system.model().constraints.size());
   if (constraints == 0) return;
@@ -95,6 +97,10 @@ void PeakWatch::measure(const BeamSystem& system, const State& state) {
     system.dimension() == 2 ? measure_beam<2>(beam, state, sums.data())
                             : measure_beam<3>(beam, state, sums.data());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (adrift_[b]) {
+      now_.insert(now_.end(), 2, 0.0);
+      continue;
+    }
     const double speed = vector_at(system, state.v, system.mesh().bodies[b]).norm();
     const Eigen::Vector3d a = vector_at(system, state.a, system.mesh().bodies[b]);
     now_.push_back(speed);

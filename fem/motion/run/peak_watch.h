@@ -74,6 +74,7 @@ class PeakWatch {
 
   std::shared_ptr<const BeamSystem> system_;
   std::vector<WatchedBeam> beams_;
+  std::vector<bool> adrift_;               ///< bodies that have left their beams do not count
   std::vector<std::pair<int, int>> rows_;  ///< of constraints: first and number of their multipliers
   std::vector<double> earlier_, last_, now_;
   std::vector<double> best_, top_;  ///< the largest in snapshots, and with what is kept

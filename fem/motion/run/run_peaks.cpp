@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "fem/motion/record/adrift.h"
 #include "fem/system/observables.h"
 #include "nurbs/golden_section.h"
 
@@ -151,6 +152,8 @@ void show_arrival(const Run& run, int rider) {
   BodyRecord& body = snapshot.bodies[arriving.body];
   body.point = {vector_at(system, state.q, r), vector_at(system, state.v, r)};
   body.s = system.model().beam_of(arriving).curve.wrapped(*place(system, state, rider));
+  snapshot.energy = record_energy(energy(system, state));
+  snapshot.energy.adrift = kinetic_energy_adrift(system, state, bodies_adrift(system, state));
   run.observer.peak(std::move(snapshot));
 }
 

@@ -12,7 +12,7 @@ void watch_for_peaks(Run& run, const State& before, bool first, double length_be
 /// bend and the way it runs ask for more force, shows speed and force. `before`, `length_before`: as above.
 void look_within(Run& run, const State& before, double length_before);
 
-/// Shows how fast a rider's body is as it comes to an end of its beam.
+/// Shows how fast a rider's body is as it comes to an end of its beam, and the energies then.
 void show_arrival(const Run& run, int rider);
 
 /// Snapshots of the moments that are kept, without elements and probes.
