@@ -17,11 +17,16 @@ struct Shown {
   const char* ending;  ///< of its name in the extremes
   const char* name;
   const char* unit;
+  int sign = 0;   ///< 1 or -1: only what is positive or negative counts, and is shown without its sign
+  int group = 0;  ///< of those with one number the largest alone is shown; 0: of none
 };
 constexpr Shown all_shown[] = {{".displacement.max", "displacement", "m"},
-                               {".stress.max", "stress", "Pa"},
-                               {".axial_force.max", "tension", "N"},
+                               {".stress.max", "stress", "Pa", 0, 1},
+                               {".von_mises.max", "von Mises stress", "Pa", 0, 1},
+                               {".axial_force.max", "tension", "N", 1, 2},
+                               {".axial_force.min", "compression", "N", -1, 2},
                                {".force", "support force", "N"},
+                               {".joint_force", "joint force", "N"},
                                {".speed", "speed", "m/s"}};
 
 bool is_round_off(double value, const std::string& unit, const RunSummary& summary) {
@@ -34,17 +39,29 @@ std::optional<RunExtreme> largest(const RunSummary& summary, const Shown& shown)
   std::optional<RunExtreme> found;
   for (const RunExtreme& each : summary.extremes)
     if (each.quantity.ends_with(shown.ending) && each.unit == shown.unit && std::isfinite(each.value) &&
-        each.value != 0 && !is_round_off(each.value, each.unit, summary) &&
+        each.value != 0 && !is_round_off(each.value, each.unit, summary) && shown.sign * each.value >= 0 &&
         (!found || std::abs(each.value) > std::abs(found->value)))
       found = each;
   return found;
+}
+
+// Whether another quantity of the group is larger.
+bool is_surpassed(const RunSummary& summary, const Shown& shown, const RunExtreme& extreme) {
+  return shown.group != 0 && std::ranges::any_of(
+                                 all_shown,
+                                 [&](const Shown& other) {
+                                   if (other.group != shown.group) return false;
+                                   const auto larger = largest(summary, other);
+                                   return larger && std::abs(larger->value) > std::abs(extreme.value);
+                                 });
 }
 
 std::string text_of_extreme(const RunExtreme& extreme, const Shown& shown, bool moves) {
   constexpr int digits = 4;
   const std::string of =
       extreme.quantity.substr(0, extreme.quantity.size() - std::string(shown.ending).size());
-  std::string text = std::string(shown.name) + " " + readable(extreme.value, extreme.unit) + " (" + of;
+  const double value = shown.sign == 0 ? extreme.value : std::abs(extreme.value);
+  std::string text = std::string(shown.name) + " " + readable(value, extreme.unit) + " (" + of;
   if (extreme.s) text += ", s = " + text_of(*extreme.s, digits) + " m";
   if (moves) text += ", t = " + text_of(extreme.time, digits) + " s";
   return text + ")";
@@ -53,7 +70,7 @@ std::string text_of_extreme(const RunExtreme& extreme, const Shown& shown, bool 
 void add_extremes(const RunSummary& summary, bool moves, std::vector<std::string>& lines) {
   bool first = true;
   for (const Shown& shown : all_shown)
-    if (const auto extreme = largest(summary, shown))
+    if (const auto extreme = largest(summary, shown); extreme && !is_surpassed(summary, shown, *extreme))
       lines.push_back((std::exchange(first, false) ? "largest " : "        ") +
                       text_of_extreme(*extreme, shown, moves));
 }
@@ -83,8 +100,7 @@ std::string energy_line(const RunSummary& summary, const SimulationReport& run, 
     return "strain energy " + readable(is_round_off(strain, "J", summary) ? 0 : strain, "J");
   }
   if (is_round_off(summary.energy_drift, "J", summary)) return "energy balance kept to round-off";
-  const double most =
-      std::max({run.peak_kinetic_energy, run.strain_energy.width(), run.gravity_energy.width()});
+  const double most = run.energy_scale();
   std::string line = "energy balance kept to " + readable(summary.energy_drift, "J");
   if (most > 0) line += ", " + text_of(100 * summary.energy_drift / most, 2) + " % of the energy that moves";
   return line;

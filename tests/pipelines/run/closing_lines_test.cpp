@@ -46,6 +46,37 @@ TEST(ClosingLines, OfStaticsHaveNoTimesButTheStrainEnergy) {
   EXPECT_EQ(lines[6], "results in out");
 }
 
+// An arch has no tension anywhere: the least compression is none.
+TEST(ClosingLines, TellOfTensionAndCompressionTheLarger) {
+  RunSummary summary = tube();
+  summary.extremes.push_back({"tube.axial_force.min", "N", -9e4, 1.0, 0});
+  EXPECT_EQ(closing_lines(summary, {}, false, "out", false)[2], "        tension 120 kN (tube, s = 0 m)");
+  summary.extremes.back().value = -1.5e5;
+  EXPECT_EQ(closing_lines(summary, {}, false, "out", false)[2], "        compression 150 kN (tube, s = 1 m)");
+  summary.extremes.front().value = -5e4;
+  const auto lines = closing_lines(summary, {}, false, "out", false);
+  EXPECT_EQ(lines[2], "        compression 150 kN (tube, s = 1 m)");
+  for (const std::string& line : lines) EXPECT_EQ(line.find("tension"), std::string::npos) << line;
+}
+
+// The wire of a helical spring is twisted: its normal stress says little.
+TEST(ClosingLines, TellOfNormalAndVonMisesStressTheLarger) {
+  RunSummary summary = tube();
+  summary.extremes.push_back({"tube.von_mises.max", "Pa", 1.2e8, 0.5, 0.25});
+  EXPECT_EQ(closing_lines(summary, {}, false, "out", false)[1], "        stress -137 MPa (tube, s = 0.25 m)");
+  summary.extremes.back().value = 2e8;
+  EXPECT_EQ(closing_lines(summary, {}, false, "out", false)[1],
+            "        von Mises stress 200 MPa (tube, s = 0.5 m)");
+}
+
+TEST(ClosingLines, HaveTheForceOfJoints) {
+  RunSummary summary;
+  summary.extremes = {{"car.speed", "m/s", 20.0, 3.0, 1.0}, {"car.joint_force", "N", 34.5e3, 4.0, 2.0}};
+  const auto lines = closing_lines(summary, {}, true, "out", false);
+  EXPECT_EQ(lines[0], "largest joint force 34.5 kN (car, s = 4 m, t = 2 s)");
+  EXPECT_EQ(lines[1], "        speed 20 m/s (car, s = 3 m, t = 1 s)");
+}
+
 TEST(ClosingLines, ShowNoRoundOff) {
   RunSummary summary = tube();
   summary.round_off = {{"m", 1e-2}, {"N", 1e3}, {"J", 1}};
