@@ -11,9 +11,11 @@ namespace {
 // Of a step.
 Range time_step() { return shapes::plausible(1e-12, 1e9); }
 
-// Steps are fixed unless there is none: then the integrator chooses them by the tolerance.
-IntegratorSettings read_integrator(const Json& json, std::optional<double> tolerance, bool fixed_steps,
-                                   Findings& findings) {
+// The tolerance when nothing is said. On a guide a step is long beside its bends, and cheap.
+double usual_tolerance(bool nothing_deforms) { return nothing_deforms ? 1e-6 : 1e-4; }
+
+// Steps are fixed where the tolerance is 0; else the integrator chooses them by it.
+IntegratorSettings read_integrator(const Json& json, double tolerance, Findings& findings) {
   enum class Method { generalized_alpha, radau, ida, rk4 };
   const auto method = chosen<Method>(json, "type",
                                      {{"generalized-alpha", Method::generalized_alpha},
@@ -27,18 +29,17 @@ IntegratorSettings read_integrator(const Json& json, std::optional<double> toler
     findings.error("analysis.integrator.type",
                    "is \"ida\", which nurbeam no longer has; use \"radau\": of error control too, and for "
                    "friction, stops and stiff beams");
-  const double of_steps = fixed_steps ? 0 : tolerance.value_or(1e-4);
   switch (method) {
     case Method::ida:
     case Method::radau:
-      return Radau{.tolerance = of_steps};
+      return Radau{.tolerance = tolerance};
     case Method::rk4:
       return ExplicitRungeKutta{};
     case Method::generalized_alpha:
       break;
   }
   return GeneralizedAlpha{.rho_infinity = number(json, "rho_infinity", GeneralizedAlpha{}.rho_infinity),
-                          .tolerance = of_steps,
+                          .tolerance = tolerance,
                           .settles = !has(json, "settle") || flag(json, "settle")};
 }
 
@@ -99,7 +100,7 @@ Shape analysis_shape() {
        {"tolerance",
         quantity(Dimension::number,
                  {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
-        "local error of adaptive steps; 1e-4 when nothing is said"},
+        "local error of adaptive steps; when nothing is said 1e-4, or 1e-6 where all beams are rigid guides"},
        {"load_steps",
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "
@@ -112,7 +113,7 @@ Shape analysis_shape() {
       {{{"step", "tolerance"}, false}});
 }
 
-CaseAnalysis read_analysis(const Json& json, Findings& findings) {
+CaseAnalysis read_analysis(const Json& json, bool nothing_deforms, Findings& findings) {
   CaseAnalysis analysis;
   analysis.type = chosen<CaseAnalysis::Type>(json, "type",
                                              {{"dynamic", CaseAnalysis::Type::dynamic},
@@ -127,8 +128,8 @@ CaseAnalysis read_analysis(const Json& json, Findings& findings) {
   if (dynamic) {
     analysis.end_time = number(json, "end_time", 0);
     analysis.step = optional_number(json, "step");
-    analysis.integrator = read_integrator(part(json, "integrator"), optional_number(json, "tolerance"),
-                                          analysis.step.has_value(), findings);
+    const double tolerance = number(json, "tolerance", usual_tolerance(nothing_deforms));
+    analysis.integrator = read_integrator(part(json, "integrator"), analysis.step ? 0 : tolerance, findings);
   }
   if (analysis.type == CaseAnalysis::Type::statics)
     analysis.load_factors = read_load_factors(json, findings);

@@ -205,7 +205,8 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   read_all("connectors", result.connectors, read_connector);
   add_fastenings(result);
   result.laws = read_laws(json);
-  result.analysis = read_analysis(part(json, "analysis"), findings);
+  const bool nothing_deforms = std::ranges::all_of(result.beams, &CaseBeam::rigid);
+  result.analysis = read_analysis(part(json, "analysis"), nothing_deforms, findings);
   if (result.analysis.type == CaseAnalysis::Type::statics) {
     result.analysis.reads_tables = has_tables(result);
     const std::vector<double> factors = result.analysis.factors();
