@@ -29,12 +29,30 @@ std::pair<std::string, PlainFindings> case_json(const std::filesystem::path& fil
   return {report.json, plain(report.diagnostics)};
 }
 
-// (the case as JSON, the place where items are numbers, the problem or "").
-std::tuple<std::string, std::string, std::string> with_value(const std::string& text, const std::string& path,
-                                                             const std::string& value) {
+// What is wrong with the value at a place of a case and below it, by the place in the case: (findings).
+PlainFindings wrong_at(const std::string& place, Json json) {
+  Findings findings("case");
+  check_part(host_keys(), json, findings);
+  std::vector<Diagnostic> wrong;
+  const std::string prefix = findings.where(place);
+  for (Diagnostic& each : findings.take()) {
+    if (each.severity != Severity::error || !each.where.starts_with(prefix)) continue;
+    const std::string below = each.where.substr(prefix.size());
+    if (!below.empty() && below[0] != '.' && below[0] != '[') continue;
+    each.where = place + below;
+    wrong.push_back(std::move(each));
+  }
+  return plain(wrong);
+}
+
+// (the case as JSON, the place where items are numbers, the problem or "", what is wrong with the value).
+std::tuple<std::string, std::string, std::string, PlainFindings> with_value(const std::string& text,
+                                                                            const std::string& path,
+                                                                            const std::string& value) {
   Json json = Json::parse(text);
   const AppliedOverride applied = set_value(json, path, Json::parse(value));
-  return {json.dump(), applied.path, applied.problem};
+  if (!applied.problem.empty()) return {json.dump(), applied.path, applied.problem, {}};
+  return {json.dump(), applied.path, applied.problem, wrong_at(applied.path, json)};
 }
 
 // The shape of an object or of the items of an array.

@@ -474,13 +474,16 @@ class Model:
 
     def set(self, path: str, value: Any) -> None:
         """Sets one value of the case by its path, as `--set` does: `model.set("beams[0].section.radius", "7 mm")`, also
-        by name, `"beams.cable.elements.count"`; None removes the key or the item. KeyError, and the case is as it was, for a
-        path that leads nowhere."""
+        by name, `"beams.cable.elements.count"`; None removes the key or the item. KeyError for a path that leads nowhere,
+        CaseError for a value that cannot stand there; the case is then as it was."""
         asked = _json(value)
         case, json_value = (json.dumps(_finite(each)) for each in (_json(self.case), asked))
-        text, place, problem = _core.with_value(case, path, json_value)
+        text, place, problem, found = _core.with_value(case, path, json_value)
         if problem:
             raise KeyError(problem)
+        wrong = _not_finite(asked, place) + findings_of(found)
+        if wrong:
+            raise CaseError(wrong)
         _put(self.case, json.loads(text), [int(p) if p.isdigit() else p for p in re.findall(r"[^.\[\]]+", place)], asked)
 
     def __reduce__(self) -> Any:

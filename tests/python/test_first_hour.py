@@ -129,6 +129,39 @@ def test_wrong_values_complain_where_they_stand(wrong, says):
     assert json.dumps(model.case) == before
 
 
+@pytest.mark.parametrize(
+    "path, value, says",
+    [
+        ("beams[0].section.radius", "6 mn", r'beams\[0\].section.radius: .*did you mean "mm"'),
+        ("beams.b.section.radius", -1, r"beams\[0\].section.radius: "),
+        ("beams[0].section", {"radus": 1}, r'beams\[0\].section.radus: .*did you mean "radius"'),
+        ("supports[1].type", "fixed", 'did you mean "clamped"'),
+        ("supports[1]", {"beam": "b", "at": "ent"}, r"supports\[1\].at: "),
+        ("gravity", -9.81, "gravity: is the number -9.81"),
+        ("gravity[2]", math.nan, r"gravity\[2\]: is nan; expected a finite number"),
+        ("loads[0].force_per_length", [0, "9 kg", 0], r"loads\[0\].force_per_length"),
+    ],
+)
+def test_a_wrong_value_is_not_set(path, value, says):
+    model = bar()
+    before = json.dumps(model.case)
+    with pytest.raises(nb.CaseError, match=says):
+        model.set(path, value)
+    assert json.dumps(model.case) == before
+
+
+def test_a_value_is_set_beside_what_is_wrong_or_missing_elsewhere():
+    model = bar()
+    model.case["supports"][0]["at"] = "ent"
+    model.set("beams[0].section.radius", "7 mm")
+    model.set("supports[0].at", "start")
+    model.set("beams[0].section.area", 1e-4)  # excludes the radius, which goes next
+    model.set("beams[0].section.radius", None)
+    model.set("beams[0].section.second_moment", 1e-9)
+    model.set("beams[0].material", {"density": 7850})
+    assert model.case["beams"][0]["section"] == {"area": 1e-4, "second_moment": 1e-9}
+
+
 def test_a_list_that_no_case_has_is_refused():
     with pytest.raises(TypeError, match='did you mean "loads"'):
         bar().add("load", beam="b")

@@ -155,9 +155,12 @@ def test_what_no_case_can_hold_is_refused_with_its_place():
 
 def test_the_messages_are_those_of_the_command_line(command, tmp_path):
     model = straight_cantilever()
-    model.set("beams.rod.elements.count", 0)
+    with pytest.raises(nb.CaseError) as at_once:
+        model.set("beams.rod.elements.count", 0)
+    model.case["beams"][0]["elements"] = {"count": 0}
     with pytest.raises(nb.CaseError) as caught:
         model.run(type="static")
+    assert at_once.value.findings[0].message == caught.value.findings[0].message
     model.set("analysis.type", "static")
     model.save(tmp_path / "case.json")
     said = command("check", tmp_path / "case.json", expect=2)
@@ -203,12 +206,14 @@ def test_what_is_set_leaves_the_items_that_a_user_holds():
     model.set("loads[0].force[1]", 2)
     model.set("output.every", None)
     model.set("supports[0].name", "wall")
-    model.set("gravity[0]", np.inf)
+    with pytest.raises(nb.CaseError, match=r"gravity\[0\]: is inf; expected a finite number"):
+        model.set("gravity[0]", np.inf)
+    model.set("gravity[0]", 1.5)
     model.set("beams.rod.material", "steel")
     model.set("beams.rod.material.density", 7000)
     assert load["force"] == [0, 2, 0] and model.case["loads"][0] is load
     assert support["name"] == "wall" and "output" not in model.case
-    assert model.case["gravity"][0] == np.inf
+    assert model.case["gravity"][0] == 1.5
     assert model.case["beams"][0]["material"] == {"name": "steel", "density": 7000}
     model.set("loads[0]", None)
     assert model.case["loads"] == []
