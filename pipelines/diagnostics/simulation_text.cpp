@@ -137,7 +137,7 @@ std::string free_part_text(const Failure& failure, const BeamModel& model) {
          ": in the motion that is free " +
          (loose.is_body ? "it moves" : "its place at s = " + text_of(loose.s, 6) + " m moves furthest") +
          " along [" + component(d[0]) + ", " + component(d[1]) + ", " + component(d[2]) + "]" +
-         turns_about_text(model) + "; add a support that holds it there, or clamp one that only pins";
+         turns_about_text(model, loose) + "; add a support that holds it there, or clamp one that only pins";
 }
 
 std::string failure_text(const Failure& failure, const BeamModel& model) {
@@ -223,7 +223,7 @@ std::string failure_text(const Failure& failure, const BeamModel& model) {
 
 }  // namespace
 
-std::string turns_about_text(const BeamModel& model) {
+std::string turns_about_text(const BeamModel& model, const LoosePart& loose) {
   const Support* only = nullptr;
   for (const Constraint& constraint : model.constraints) {
     const auto* support = std::get_if<Support>(&constraint);
@@ -232,6 +232,7 @@ std::string turns_about_text(const BeamModel& model) {
   }
   if (!only)
     return model.constraints.empty() && model.connectors.empty() ? ", as the model has no support" : "";
+  if (loose.is_body || model.beams[only->beam].name != loose.name) return "";
   return ", turning about its only support, at s = " + text_of(only->s, 6) + " m of beam \"" +
          model.beams[only->beam].name + "\"";
 }

@@ -110,11 +110,16 @@ double thickness_of(const SectionOutline& outline) {
   return box.sizes().minCoeff();
 }
 
-// What a size of the section probably was, which this part of it makes plausible.
+// What a size of the section probably was, which this part of it makes plausible; a wire below half a
+// millimetre hardly.
 std::string meant_size(const CaseBeam& from, double part) {
-  if (!from.section.radius) return "; probably its sizes are in mm: " + in_metres(part / thousand);
+  constexpr double finest = 5e-4;
+  if (part / thousand < finest) return "; give it a longer axis or a thinner section";
+  if (!from.section.radius)
+    return "; probably its sizes are in mm: " + in_metres(part / thousand) + " (is the unit right?)";
   const double radius = *from.section.radius;
-  return "; probably a \"radius\" of \"" + text_of(radius, told_digits) + " mm\" is meant: 6 is 6 metres";
+  return "; probably a \"radius\" of \"" + text_of(radius, told_digits) +
+         " mm\" is meant: 6 is 6 metres (is the unit right?)";
 }
 
 // Warns of a thick section of a short beam; returns whether it has.
@@ -122,10 +127,10 @@ bool is_too_thick(const CaseBeam& from, const Beam& beam, double thick, Findings
   constexpr double least_slender = 2, stubby = 5, huge = 1;  // of the thickness; [m]
   const double length = beam.curve.length();
   if (!(length < least_slender * thick || (length < stubby * thick && thick > huge))) return false;
-  findings.warn(from.path + ".section",
-                "is " + in_metres(thick) + " thick, of a beam " + in_metres(length) +
-                    " long: it is no beam below " + text_of(thick > huge ? stubby : least_slender, 1) +
-                    " times its thickness" + meant_size(from, thick) + " (is the unit right?)");
+  findings.warn(from.path + ".section", "is " + in_metres(thick) + " thick, of a beam " + in_metres(length) +
+                                            " long: it is no beam below " +
+                                            text_of(thick > huge ? stubby : least_slender, 1) +
+                                            " times its thickness" + meant_size(from, thick));
   return true;
 }
 

@@ -175,7 +175,7 @@ std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, c
                ? "body \"" + loose.name + "\" moves furthest"
                : "beam \"" + loose.name + "\" moves furthest, at s = " + text_of(loose.s, 6) + " m") +
           ", along [" + component(direction[0]) + ", " + component(direction[1]) + ", " +
-          component(direction[2]) + "]" + turns_about_text(built.model) +
+          component(direction[2]) + "]" + turns_about_text(built.model, loose) +
           ": the equilibrium that was found is one of many; hold what moves, or leave it to a load or to "
           "gravity"};
 }

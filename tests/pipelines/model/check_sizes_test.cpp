@@ -55,6 +55,14 @@ TEST(Sizes, ThatCanBeMeantPassWithoutAWord) {
   EXPECT_TRUE(warnings_of(cable, {"\"nurbeam\": 1,", "\"nurbeam\": 1, \"gravity\": [0, 0, -1962],"}).empty());
 }
 
+// Nobody means a pipe of 0.09 mm.
+TEST(Sizes, OfThickShortBeamsAreNotTakenForMillimetres) {
+  const std::string from = R"("start": [1, 0, 0], "end": [0, 1, 0])",
+                    to = R"("start": [0.1, 0, 0], "end": [0, 0.1, 0])";
+  expect_one(bent, {from, to, "0.05, \"bore\": 0.02", "0.09, \"bore\": 0.08"},
+             {"0.18 m thick", "below 2 times its thickness; give it a longer axis or a thinner section"});
+}
+
 TEST(Sizes, OfMillimetresAreToldWithWhatWasMeant) {
   expect_one(cable, {"\"6 mm\"", "6"}, {"beams[0].section", "12 m thick", "\"6 mm\""});
   expect_one(cable, {"\"6 mm\"", "4.5"}, {"\"4.5 mm\""});
