@@ -9,7 +9,9 @@
 #include <stdexcept>
 
 #include "cad_import/report/length_unit.h"
+#include "nurbs/even_knots.h"
 #include "nurbs/full_knots.h"
+#include "nurbs/number_text.h"
 
 namespace nurbeam {
 namespace {
@@ -82,6 +84,16 @@ Eigen::Matrix4Xd points_in(const Json& curve) {
   return points;
 }
 
+// The knots of a curve; where it has none the error says those that it probably means.
+std::vector<double> knots_in(const Json& curve, int degree, Eigen::Index count) {
+  constexpr Eigen::Index most_shown = 12;
+  if (curve.contains("knots") || count <= degree || count > most_shown) return numbers_in(curve, "knots");
+  std::string shown;
+  for (const double knot : even_clamped_knots(degree, static_cast<int>(count)))
+    shown += (shown.empty() ? "" : ", ") + text_of(knot);
+  fail("it has no \"knots\"; those of a clamped curve with equal spans are [" + shown + "]");
+}
+
 std::string unknown_keys(const Json& object, std::initializer_list<std::string_view> known) {
   std::string unknown;
   for (const auto& [key, value] : object.items())
@@ -100,7 +112,8 @@ void add_curve(const Json& curve, ImportReport& report) {
                          .curve = NurbsCurve(KnotVector(1, {0, 0, 1, 1}), Eigen::Matrix4Xd::Ones(4, 2))};
   Eigen::Matrix4Xd points = points_in(curve);
   points.topRows<3>() *= report.unit_in_metres;
-  for (NurbsCurve& piece : split_at_full_knots(degree_in(curve), numbers_in(curve, "knots"), points)) {
+  const int degree = degree_in(curve);
+  for (NurbsCurve& piece : split_at_full_knots(degree, knots_in(curve, degree, points.cols()), points)) {
     const Eigen::Matrix3Xd places = piece.control_points().colwise().hnormalized();
     if (!((places.colwise() - places.col(0)).cwiseAbs().maxCoeff() > 0)) fail("it has no length");
     imported.curve = std::move(piece);

@@ -5,6 +5,7 @@
 
 #include "cad_import/files/cad_file_name.h"
 #include "nurbs/curve_through.h"
+#include "nurbs/even_knots.h"
 #include "nurbs/number_text.h"
 #include "pipelines/case/case_values.h"
 #include "pipelines/diagnostics/closest_name.h"
@@ -13,13 +14,14 @@ namespace nurbeam {
 
 Shape axis_shape() {
   using namespace shapes;
-  const Shape nurbs =
-      object({{"degree", integer(from(1)), "degree of the curve", required},
-              {"knots", array(quantity(Dimension::number), 4),
-               "full non-decreasing knots, both ends included", required},
-              {"control_points", array(point(), 2), "plain (not weighted) control points", required},
-              {"weights", array(quantity(Dimension::number, positive()), 2),
-               "one per control point; 1 when omitted"}});
+  const Shape nurbs = object(
+      {{"degree", integer(from(1)), "degree of the curve", required},
+       {"knots", array(quantity(Dimension::number), 4),
+        "full non-decreasing knots, both ends included; those of a clamped curve with equal spans on [0, 1] "
+        "when omitted"},
+       {"control_points", array(point(), 2), "plain (not weighted) control points", required},
+       {"weights", array(quantity(Dimension::number, positive()), 2),
+        "one per control point; 1 when omitted"}});
   const Shape arc =
       object({{"center", point(), "centre of the circle", required},
               {"start", point(), "start point", required},
@@ -107,12 +109,22 @@ bool scale_weights(std::vector<double>& weights, const std::string& path, Findin
 
 std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path, Findings& findings) {
   const std::vector<Eigen::Vector3d> points_in = points(nurbs, "control_points");
-  const std::vector<double> knots = numbers(nurbs, "knots");
+  std::vector<double> knots = numbers(nurbs, "knots");
   std::vector<double> weights = numbers(nurbs, "weights");
   const bool complete = has(nurbs, "degree") && points_in.size() == part(nurbs, "control_points").size() &&
                         knots.size() == part(nurbs, "knots").size() &&
                         weights.size() == part(nurbs, "weights").size();
-  if (!complete || knots.empty() || points_in.empty()) return {};  // what is missing has been reported
+  if (!complete || points_in.empty()) return {};  // what is missing has been reported
+  const int degree = nurbs["degree"].get<int>(), count = static_cast<int>(points_in.size());
+  if (!has(nurbs, "knots")) {
+    if (nurbs.contains("knots")) return {};
+    if (count <= degree) {
+      findings.error(path, "has " + std::to_string(count) + " control points; a curve of degree " +
+                               std::to_string(degree) + " has at least " + std::to_string(degree + 1));
+      return {};
+    }
+    knots = even_clamped_knots(degree, count);
+  }
   if (!has(nurbs, "weights")) weights.assign(points_in.size(), 1.0);
   if (weights.size() != points_in.size()) {
     findings.error(path, "has " + std::to_string(weights.size()) + " weights for " +
@@ -124,7 +136,7 @@ std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path,
   Eigen::Matrix3Xd control_points(3, points_in.size());
   for (std::size_t i = 0; i < points_in.size(); ++i) control_points.col(i) = points_in[i];
   try {
-    return make_nurbs_curve(KnotVector(nurbs["degree"].get<int>(), knots), control_points,
+    return make_nurbs_curve(KnotVector(degree, knots), control_points,
                             Eigen::Map<const Eigen::VectorXd>(weights.data(), weights.size()));
   } catch (const std::invalid_argument& error) {
     findings.error(path, error.what());

@@ -20,6 +20,7 @@ namespace {
 Shape sides() {
   Shape shape = shapes::array(shapes::quantity(Dimension::length, shapes::plausible(1e-9, 1e4)), 2);
   shape.most_items = 2;
+  shape.argument_name = "width, height";
   return shape;
 }
 

@@ -47,12 +47,17 @@ std::string row_of(const Shape& shape) {
   return row + "]";
 }
 
+std::string expected_array(const Shape& shape) {
+  if (shape.most_items != shape.min_items) return "an array [...]";
+  return "[" + shape.argument_name + "], each " + quantity_hint(shape.items[0].dimension);
+}
+
 std::string expected(const Shape& shape) {
   switch (shape.kind) {
     case Kind::object:
       return "an object with " + quoted_list(key_names(shape));
     case Kind::array:
-      return "an array [...]";
+      return expected_array(shape);
     case Kind::either:
       return expected(shape.items[0]) + ", or " + expected(shape.items[1]);
     case Kind::choice:

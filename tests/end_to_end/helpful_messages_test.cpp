@@ -55,6 +55,42 @@ TEST(Messages, KnowTheWordsOfOtherPrograms) {
   expect_told("loads[0].at=12", {"did you mean { \"length\": 12 }?"});
 }
 
+TEST(Messages, SayWhatAListIsToHold) {
+  expect_told(R"(beams[0].section={"rectangle": {"width": 0.1, "height": 0.2}})",
+              {"beams[0].section.rectangle: is an object; expected [width, height], each a number in m"});
+}
+
+// Without knots a curve is clamped and has equal spans.
+TEST(Messages, KnotsThatAreLeftOutAreTheUsualOnes) {
+  const auto length_of = [](const std::string& nurbs) {
+    const test::TemporaryDirectory directory;
+    std::string text = cable;
+    const std::string line = R"("polyline": [[0, 0, 10], [40, 0, 8]])";
+    text.replace(text.find(line), line.size(), R"("nurbs": {)" + nurbs + "}");
+    const test::CaseRun run = test::run_file(directory.write("case.json", text));
+    EXPECT_EQ(run.code, 0) << run.messages;
+    return run.last("cable.length [m]");
+  };
+  const std::string points =
+      R"("degree": 2, "control_points": [[0, 0, 10], [9, 0, 10], [20, 0, 6], [31, 0, 6], [40, 0, 8]])";
+  EXPECT_EQ(length_of(points), length_of(points + R"(, "knots": [0, 0, 0, 1, 2, 3, 3, 3])"));
+  expect_text_told(R"("polyline": [[0, 0, 10], [40, 0, 8]])",
+                   R"("nurbs": {"degree": 3, "control_points": [[0, 0, 10], [40, 0, 8]]})",
+                   "has 2 control points; a curve of degree 3 has at least 4");
+}
+
+TEST(Messages, OfCurvesInJsonGiveTheKnotsThatAreMissing) {
+  const test::TemporaryDirectory directory;
+  const Told found = told({"inspect", directory
+                                          .write("curves.json", R"({"unit": "m", "curves": [{"degree": 2,
+      "control_points": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [2, 1, 0]]}]})")
+                                          .string()});
+  EXPECT_EQ(found.code, 2);
+  EXPECT_NE(found.text.find("those of a clamped curve with equal spans are [0, 0, 0, 0.5, 1, 1, 1]"),
+            std::string::npos)
+      << found.text;
+}
+
 TEST(Messages, NameCommasThatJsonDoesNotHave) {
   expect_told("bodies=[{\"name\": \"m\", \"mass\": \"80,5 kg\"}]", {"decimal comma", "\"80.5 kg\""});
   expect_text_told("\"radius\": \"6 mm\" }", "\"radius\": \"6 mm\", }", "remove the comma");
@@ -84,6 +120,19 @@ TEST(Messages, OfAModelThatIsNotHeldSayWhatItTurnsAbout) {
   EXPECT_TRUE(free.says("beam \"cable\"") && free.says("no support")) << free.messages;
   const test::CaseRun pinned = test::run_file(file, {"supports[1]=null", "loads=null", "gravity=[0,0,0]"});
   EXPECT_TRUE(pinned.says("turning about its only support, at s = 0 m of beam \"cable\"")) << pinned.messages;
+}
+
+// The support that there is holds another beam.
+TEST(Messages, OfABeamThatNothingHoldsNameNoSupportOfAnother) {
+  const test::TemporaryDirectory directory;
+  const test::CaseRun run = test::run_file(directory.write("case.json", R"({ "nurbeam": 1,
+    "beams": [{ "name": "held", "axis": { "polyline": [[0, 0, 0], [1, 0, 0]] }, "section": { "radius": 0.01 }, "material": "steel" },
+      { "name": "loose", "axis": { "polyline": [[0, 1, 0], [1, 1, 0]] }, "section": { "radius": 0.01 }, "material": "steel" }],
+    "supports": [{ "beam": "held", "at": "start", "type": "clamped" }],
+    "analysis": { "type": "static" }, "output": { "report": false } })"));
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(run.says("nothing holds beam \"loose\"")) << run.messages;
+  EXPECT_FALSE(run.says("turning about")) << run.messages;
 }
 
 TEST(Messages, OfManyCornersAreOneWithTheCurveThatWasMeant) {
