@@ -1,15 +1,22 @@
 #include "pipelines/command/inspect.h"
 
+#include <unistd.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include "nurbs/number_text.h"
+#include "pipelines/command/text_table.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/reading_progress.h"
+#include "pipelines/diagnostics/terminal_width.h"
 #include "pipelines/diagnostics/utf8_text.h"
 #include "pipelines/model/axis_selection.h"
 #include "pipelines/section/section_profile.h"
@@ -60,26 +67,19 @@ CurveRow row_of(const ImportedCurve& imported) {
           .end = curve.point(curve.knots().end())};
 }
 
+// Without what is only round-off beside the largest coordinate, or below the digits of CAD systems.
 std::string coordinates(const Eigen::Vector3d& point) {
+  constexpr double part = 1e-13, least = 1e-12;
+  const double round_off = std::max(part * point.cwiseAbs().maxCoeff(), least);
   std::ostringstream text;
-  text << '(' << point.x() << ", " << point.y() << ", " << point.z() << ')';
+  const char* before = "(";
+  for (const double each : point)
+    text << std::exchange(before, ", ") << (std::abs(each) < round_off ? 0 : each);
+  text << ')';
   return text.str();
 }
 
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
-
-/// Cells in columns as wide as their widest cell.
-void print_table(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], column_count(row[i]));
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      line += "  " + row[i] + std::string(widths[i] - column_count(row[i]), ' ');
-    out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
-  }
-}
 
 std::string dash_if_empty(const std::string& text) { return text.empty() ? "-" : text; }
 
@@ -115,7 +115,13 @@ void print_curves(std::ostream& out, const ImportReport& report, const std::vect
                yes_or_no(row.closed), coordinates(row.start), coordinates(row.end)},
               dash_if_empty(row.part), dash_if_empty(row.layer), dash_if_empty(row.colour)));
   }
-  print_table(out, cells);
+  const std::vector<std::string> dispensable = {"rational",  "closed", "control points", "degree", "end [m]",
+                                                "start [m]", "colour", "layer",          "part"};
+  const int width = out.rdbuf() == std::cout.rdbuf() ? terminal_width(STDOUT_FILENO).value_or(0) : 0;
+  std::string left_out;
+  for (const std::string& heading : print_table(out, std::move(cells), width, dispensable))
+    left_out += (left_out.empty() ? "" : ", ") + heading;
+  if (!left_out.empty()) out << "left out of this narrow terminal (--json has all): " << left_out << "\n";
 }
 
 /// A chain of the curves that a case would choose from.

@@ -1,12 +1,13 @@
 #include "pipelines/run/progress.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <ostream>
 #include <vector>
+
+#include "pipelines/diagnostics/terminal_width.h"
 
 namespace nurbeam {
 
@@ -49,8 +50,7 @@ Progress::Style Progress::style_of_stderr(bool quiet) {
 
 std::size_t Progress::width_of_stderr() {
   constexpr std::size_t usual = 80;
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+  return terminal_width(STDERR_FILENO).value_or(usual);
 }
 
 Progress::Progress(std::ostream& stream, Style style, double start_time, double end_time,

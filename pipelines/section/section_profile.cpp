@@ -214,18 +214,24 @@ ProfileReport section_profile(const std::vector<ImportedCurve>& curves, const st
 }
 
 void print_profile(std::ostream& out, const SectionProfile& profile) {
-  const auto direction = [](const Eigen::Vector3d& v) {
-    return "(" + text_of(v.x()) + ", " + text_of(v.y()) + ", " + text_of(v.z()) + ")";
+  const auto shown = [](double value, double size) { return std::abs(value) < 1e-12 * size ? 0 : value; };
+  const double size = std::sqrt(profile.area), angle = profile.principal_angle() * 180 / std::numbers::pi;
+  const auto rounded = [&](const Eigen::Vector3d& v, double beside) -> Eigen::Vector3d {
+    return v.unaryExpr([&](double each) { return shown(each, beside); });
+  };
+  const auto direction = [&](const Eigen::Vector3d& v) {
+    const Eigen::Vector3d r = rounded(v, 1);
+    return "(" + text_of(r.x()) + ", " + text_of(r.y()) + ", " + text_of(r.z()) + ")";
   };
   out << "  area              " << text_of(profile.area) << " m^2, outline and " << profile.loops.size() - 1
       << " hole(s)\n"
-      << "  centroid          " << text_of(profile.centroid) << "; x axis " << direction(profile.x_axis)
-      << ", y axis " << direction(profile.y_axis) << '\n'
+      << "  centroid          " << text_of(rounded(profile.centroid, std::max(size, profile.centroid.norm())))
+      << "; x axis " << direction(profile.x_axis) << ", y axis " << direction(profile.y_axis) << '\n'
       << "  second moments    I_x " << text_of(profile.second_x) << ", I_y " << text_of(profile.second_y)
-      << ", I_xy " << text_of(profile.product) << " m^4\n"
+      << ", I_xy " << text_of(shown(profile.product, profile.principal_1())) << " m^4\n"
       << "  principal         I_1 " << text_of(profile.principal_1()) << ", I_2 "
-      << text_of(profile.principal_2()) << " m^4, axis 1 at "
-      << text_of(profile.principal_angle() * 180 / std::numbers::pi) << " degrees from x\n"
+      << text_of(profile.principal_2()) << " m^4, axis 1 at " << text_of(shown(angle, 1))
+      << " degrees from x\n"
       << "  torsion constant  ";
   const TorsionReport torsion = torsion_constant(profile.loops);
   if (torsion.status == TorsionStatus::no_mesh)
