@@ -226,7 +226,7 @@ int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEng
     result = run_study(ready.study, engine, rows, observer);
   }
   write_results(ready, options, result);
-  out << answer_text(ready.study, result) << "results in " << options.out.string() << "\n";
+  out << answer_text(ready.study, result) << "open " << (options.out / "study.html").string() << "\n";
   warn_of_answer(result, options, err);
   if (result.interrupted) {
     err << "interrupted after " << result.variants.size() << " variants; go on with --resume\n";

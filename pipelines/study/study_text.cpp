@@ -162,6 +162,24 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
       << text_of(result.noise, 4) << " of the given sd\n";
 }
 
+// Where quantities are least and greatest, among the variants that are done.
+void tell_ranges(std::ostream& out, const StudyFile& study, const std::vector<Variant>& variants) {
+  std::vector<const Variant*> done;
+  for (const Variant& variant : variants)
+    if (variant.status == VariantStatus::done) done.push_back(&variant);
+  if (done.empty()) return;
+  for (std::size_t k = 0; k < study.quantities.size(); ++k) {
+    const StudyQuantity& quantity = study.quantities[k];
+    const auto [least, greatest] = std::ranges::minmax_element(
+        done, {}, [k](const Variant* variant) { return variant->quantities[k]; });
+    const auto told = [&](const Variant& variant) {
+      return with_unit(variant.quantities[k], quantity.unit, 6) + " (variant " +
+             std::to_string(variant.number) + ")";
+    };
+    out << quantity.name << "  " << told(**least) << " to " << told(**greatest) << "\n";
+  }
+}
+
 }  // namespace
 
 std::string study_plan_text(const StudyFile& study) {
@@ -195,6 +213,7 @@ std::string study_plan_text(const StudyFile& study) {
 
 std::string answer_text(const StudyFile& study, const StudyResult& result) {
   std::ostringstream out;
+  if (std::holds_alternative<std::monostate>(result.answer)) tell_ranges(out, study, result.variants);
   std::visit([&](const auto& answer) { tell(out, study, answer); }, result.answer);
   const bool searched = std::holds_alternative<OptimumResult>(result.answer) ||
                         std::holds_alternative<CalibrationResult>(result.answer);

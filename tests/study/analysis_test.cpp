@@ -332,6 +332,18 @@ TEST(Optimum, OfTwoObjectivesIsAFrontInOrder) {
       << told;
 }
 
+TEST(Plan, IsAnsweredByTheRangesOfItsQuantities) {
+  const StudyFile study = study_of(R"json({"nurbeam_study": 1, "variables": [{"name": "x", "range": [0, 1]}],
+    "quantities": [{"name": "f", "value": "x", "unit": "mm"}], "plan": {"grid": 3}})json");
+  StudyResult result;
+  for (const double f : {2.5, -1.0, 7.0, 100.0})
+    result.variants.push_back({.number = result.variants.size(), .values = {0}, .quantities = {f}});
+  result.variants.back().status = VariantStatus::failed;
+  EXPECT_EQ(answer_text(study, result), "f  -1 mm (variant 1) to 7 mm (variant 2)\n");
+  result.variants.clear();
+  EXPECT_EQ(answer_text(study, result), "");
+}
+
 // Its value hardly changes, far from zero or near it.
 TEST(Optimum, IsFoundWhateverTheSizeOfWhatIsMinimised) {
   for (const char* method : {"cobyla", "nelder_mead", "gradient"})
