@@ -57,6 +57,14 @@ Json unstressed_length(const Beam& beam) {
   return stretch_squared > 0 ? Json(beam.curve.length() * std::sqrt(stretch_squared)) : Json();
 }
 
+// Of largest magnitude over time.
+double largest_expansion(const FreeStrain& strain) {
+  double largest = 0;
+  for (const auto& [time, expansion] : strain.thermal)
+    if (std::abs(expansion) > std::abs(largest)) largest = expansion;
+  return largest;
+}
+
 Json to_json(const Beam& beam, const BeamSource& source) {
   const BeamProperties& p = beam.properties;
   const double stretch =
@@ -78,6 +86,7 @@ Json to_json(const Beam& beam, const BeamSource& source) {
                {"damping [s]", p.damping},
                {"mass damping [1/s]", p.mass_damping},
                {"tension as drawn [N]", p.drawn_tension()}};
+  if (!p.free_strain.thermal.empty()) json["thermal strain at most"] = largest_expansion(p.free_strain);
   if (p.sections) {
     json.erase("EI [N m^2]");
     json["torsion"] = source.torsion;
