@@ -574,7 +574,8 @@ class Results(Sequence[Snapshot]):
 
     def __repr__(self) -> str:
         times = self.times
-        span = f"{len(times)} snapshots" + (f", {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else "")
+        span = "1 snapshot" if len(times) == 1 else f"{len(times)} snapshots"
+        span += f", {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else ""
         return f'<Results of "{self.name}": {span}>'
 
 
