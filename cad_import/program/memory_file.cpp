@@ -14,9 +14,13 @@ MemoryFile::MemoryFile(std::string_view text) : descriptor_(memfd_create("drawin
     if (written <= 0) break;
     text.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (descriptor_ >= 0 && text.empty()) return;
+  const bool is_written = descriptor_ >= 0 && text.empty();
+  if (is_written && access(path().c_str(), R_OK) == 0) return;
   if (descriptor_ >= 0) close(descriptor_);
-  throw std::runtime_error("there is no memory to hold the text of the file");
+  throw std::runtime_error(is_written
+                               ? "/proc is not mounted, through which OpenCASCADE reads files here; mount it "
+                                 "(mount -t proc proc /proc)"
+                               : "there is no memory to hold the text of the file");
 }
 
 MemoryFile::~MemoryFile() { close(descriptor_); }
