@@ -138,10 +138,16 @@ void read_unit(const Json& root, ImportReport& report) {
     report.diagnostics.push_back({Severity::warning, "", "the file has no \"unit\"; metres are assumed"});
 }
 
+void refuse_case(const std::string& content) {
+  if (content.find("\"nurbeam\"") != std::string::npos)
+    fail("it is a case file, not JSON of curves; \"nurbeam check\" takes it");
+}
+
 Json parsed(const std::string& content) {
   try {
     return Json::parse(content);
   } catch (const Json::exception& e) {
+    refuse_case(content);
     fail(std::string("it is no JSON: ") + e.what());
   }
 }
@@ -150,8 +156,10 @@ Json parsed(const std::string& content) {
 
 ImportReport read_json(const std::string& content) {
   const Json root = parsed(content);
-  if (!root.is_object() || !root.contains("curves") || !root["curves"].is_array())
+  if (!root.is_object() || !root.contains("curves") || !root["curves"].is_array()) {
+    refuse_case(content);
     fail("it has no list \"curves\"; JSON of curves is {\"unit\": \"mm\", \"curves\": [...]}");
+  }
   ImportReport report;
   read_unit(root, report);
   const Json& curves = root["curves"];

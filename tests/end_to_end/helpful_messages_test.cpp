@@ -91,6 +91,18 @@ TEST(Messages, OfCurvesInJsonGiveTheKnotsThatAreMissing) {
       << found.text;
 }
 
+TEST(Messages, KnowACaseThatIsToBeInspected) {
+  const test::TemporaryDirectory directory;
+  for (const std::string& comment : {std::string(), std::string("\n// a cable\n")}) {
+    const Told found =
+        told({"inspect", directory.write("case.json", "{" + comment + cable.substr(1)).string()});
+    EXPECT_EQ(found.code, 2);
+    EXPECT_NE(found.text.find("it is a case file, not JSON of curves; \"nurbeam check\" takes it"),
+              std::string::npos)
+        << found.text;
+  }
+}
+
 TEST(Messages, NameCommasThatJsonDoesNotHave) {
   expect_told("bodies=[{\"name\": \"m\", \"mass\": \"80,5 kg\"}]", {"decimal comma", "\"80.5 kg\""});
   expect_text_told("\"radius\": \"6 mm\" }", "\"radius\": \"6 mm\", }", "remove the comma");
