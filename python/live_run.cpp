@@ -1,6 +1,7 @@
 #include "python/live_run.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -147,6 +148,7 @@ LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, cons
       recording_(recording_for(*of_)),
       checks_(of_->built().model),
       extremes_(start ? start->extremes : std::vector<double>{}),
+      rows_(of_->case_file.output),
       simulation_(model_of(*of_, functions, start), probe_places(of_->built()),
                   simulation_options(of_->case_file),
                   observer_of(*of_, *recording_, checks_, extremes_, interrupts_, begun_), start),
@@ -182,10 +184,30 @@ std::vector<RunExtreme> LiveRun::extremes() const {
 bool LiveRun::advance() {
   if (ended_ || interrupts_.pending()) return false;
   const Moment moment(*this);
+  const double before = time_;
   ended_ = !simulation_.advance();
   begun_ = true;
   time_ = simulation_.state().t;
+  keep_row(before);
   return !ended_;
+}
+
+// Rows of histories, where the case asks for more than those of frames.
+void LiveRun::keep_row(double before) {
+  if (!rows_.any() || of_->case_file.analysis.type != CaseAnalysis::Type::dynamic) return;
+  Recording& recording = *recording_;
+  const bool is_frame = !recording.frames.empty() && recording.frames.back().time == time_;
+  if (!recording.row_times.empty() && recording.row_times.back() == time_) return;
+  if (!is_frame && !rows_.due(before, time_)) return;
+  std::optional<Snapshot> between;
+  if (!is_frame) between = to_world(of_->built().frame, simulation_.present(contents_between_frames));
+  const Snapshot& moment = between ? *between : recording.frames.back();
+  const WithLock lock;
+  recording.row_times.push_back(time_);
+  for (const HistoryColumn& column : columns_)
+    recording.row_values.push_back(is_frame || is_known_between_frames(column)
+                                       ? column.value(moment)
+                                       : std::numeric_limits<double>::quiet_NaN());
 }
 
 bool LiveRun::step() {

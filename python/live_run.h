@@ -9,6 +9,7 @@
 #include "fem/motion/run/simulation.h"
 #include "pipelines/results/history_columns.h"
 #include "pipelines/results/run_extremes.h"
+#include "pipelines/run/history_rows.h"
 #include "pipelines/run/run_checks.h"
 #include "python/built_case.h"
 #include "python/interrupts.h"
@@ -74,11 +75,13 @@ class LiveRun {
     Turns& turns_;
   };
   bool advance();
+  void keep_row(double before);
 
   std::shared_ptr<BuiltCase> of_;
   std::shared_ptr<Recording> recording_;
   FrameChecks checks_;
   RunExtremes extremes_;
+  HistoryRows rows_;
   Interrupts interrupts_;
   std::atomic<bool> begun_ = false, ended_ = false;
   Simulation simulation_;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fem/motion/record/snapshot.h"
 #include "pipelines/results/mode_table.h"
@@ -15,6 +16,9 @@ struct Recording {
   SnapshotNames names;
   std::deque<Snapshot> frames;  ///< which stay where they are when more come
   std::optional<ModeTable> modes;
+  /// Rows of histories, where they are not those of the frames: times, and the values of all columns row by
+  /// row.
+  std::vector<double> row_times, row_values;
 };
 
 /// One of them; it keeps the recording.

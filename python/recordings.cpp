@@ -13,6 +13,7 @@
 #include "pipelines/results/export_results.h"
 #include "pipelines/results/frame_layout.h"
 #include "pipelines/results/history_columns.h"
+#include "pipelines/results/history_table.h"
 #include "pipelines/results/results.h"
 #include "pipelines/run/simulation_plan.h"
 #include "python/bindings.h"
@@ -33,6 +34,8 @@ using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 using VectorRows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 constexpr std::size_t frames_at_once = 64;
 
+void take_rows(const std::filesystem::path& file, Recording& recording);
+
 SharedRecording read_results_directory(const std::filesystem::path& directory) {
   const WithoutLock others_go_on;
   const StoredFrames stored(directory);
@@ -43,6 +46,7 @@ SharedRecording read_results_directory(const std::filesystem::path& directory) {
   for (std::size_t first = 0; first < count; first += frames_at_once)
     for (Snapshot& frame : stored.read(first, std::min(frames_at_once, count - first)))
       recording->frames.push_back(std::move(frame));
+  take_rows(directory / "histories.csv", *recording);
   return recording;
 }
 
@@ -62,6 +66,10 @@ std::vector<std::tuple<std::string, std::string, std::string>> column_names(cons
 // (times x columns).
 Table history_values(const Recording& recording) {
   const std::vector<HistoryColumn> columns = history_columns(recording.names);
+  if (!recording.row_times.empty())
+    return Eigen::Map<const Table>(recording.row_values.data(),
+                                   static_cast<Eigen::Index>(recording.row_times.size()),
+                                   static_cast<Eigen::Index>(columns.size()));
   Table values(recording.frames.size(), columns.size());
   for (Eigen::Index i = 0; i < values.rows(); ++i)
     for (Eigen::Index j = 0; j < values.cols(); ++j) values(i, j) = columns[j].value(recording.frames[i]);
@@ -72,6 +80,28 @@ Eigen::VectorXd times(const Recording& recording) {
   Eigen::VectorXd t(recording.frames.size());
   for (Eigen::Index i = 0; i < t.size(); ++i) t[i] = recording.frames[i].time;
   return t;
+}
+
+// Of the rows of histories.
+Eigen::VectorXd history_times(const Recording& recording) {
+  if (recording.row_times.empty()) return times(recording);
+  return Eigen::Map<const Eigen::VectorXd>(recording.row_times.data(),
+                                           static_cast<Eigen::Index>(recording.row_times.size()));
+}
+
+std::size_t history_count(const Recording& recording) {
+  return recording.row_times.empty() ? recording.frames.size() : recording.row_times.size();
+}
+
+// The rows of histories.csv, where they are more than the frames.
+void take_rows(const std::filesystem::path& file, Recording& recording) {
+  if (!std::filesystem::exists(file)) return;
+  StoredHistories rows = read_histories(file);
+  if (rows.times.size() <= recording.frames.size() ||
+      rows.headings.size() != history_columns(recording.names).size())
+    return;
+  recording.row_times = std::move(rows.times);
+  recording.row_values = std::move(rows.values);
 }
 
 // The steps of the whole run: (time, size, Newton iterations, rejected) each.
@@ -287,6 +317,8 @@ void bind_recordings(py::module_& module) {
           "__len__", [](const Recording& r) { return r.frames.size(); })
       .def("columns", &column_names)
       .def("histories", &history_values)
+      .def("history_times", &history_times)
+      .def("history_count", &history_count)
       .def("times", &times)
       .def("steps", &steps)
       .def("modes", &mode_rows)

@@ -20,6 +20,8 @@ Shape output_shape() {
   return object(
       {{"every", quantity(Dimension::time, plausible(1e-12, 1e9)),
         "time between stored frames; a hundredth of `end_time` when omitted, but no less than `step`"},
+       {"histories_every", either(choice({"step"}), quantity(Dimension::time, plausible(1e-12, 1e9))),
+        "time between rows of histories, or a row at every step; those of stored frames alone when omitted"},
        {"cad", cad, "deformed axes as CAD files"},
        {"probes", short_array(probe_fields().shape()), "points whose motion is stored"},
        {"clearances", short_array(clearance_fields().shape()), "heights of beams over the ground"},
@@ -34,6 +36,11 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, const std
   if (analysis.type == CaseAnalysis::Type::dynamic)
     output.every =
         number(json, "every", std::max(analysis.end_time / default_frames, analysis.step.value_or(0)));
+  if (has(json, "histories_every")) {
+    const Json& every = json["histories_every"];
+    output.histories_at_steps = every.is_string();
+    if (every.is_number()) output.histories_every = every.get<double>();
+  }
   if (has(json, "cad")) {
     const Json& cad = json["cad"];
     output.cad_formats = {"step"};

@@ -181,6 +181,8 @@ void check_times(const Json& json, const CaseFile& c, Findings& findings) {
     return;
   }
   check_division("output.every", "stored frames", c.output.every, c.analysis, most_frames, findings);
+  check_division("output.histories_every", "rows of histories", c.output.histories_every, c.analysis,
+                 most_steps, findings);
   check_division("analysis.step", "steps", c.analysis.step, c.analysis, most_steps, findings);
   const bool has_end = c.analysis.end_time > 0;  // else it is said what is wrong with it
   if (dynamic && has_end && c.analysis.step && *c.analysis.step > c.analysis.end_time)
@@ -274,6 +276,8 @@ void check_solids(const CaseFile& c, Findings& findings) {
 /// Warns of what is said of a motion where there is none. Elements change their lengths in statics too.
 void check_keys_of_motions(const Json& json, const CaseAnalysis& analysis, Findings& findings) {
   if (analysis.type == CaseAnalysis::Type::dynamic) return;
+  if (has(part(json, "output"), "histories_every"))
+    findings.warn("output.histories_every", "is of a motion, which this is not: it has no effect");
   const std::string here = analysis.has_modes() ? "on modes and buckling" : "in a static analysis";
   for (const char* key : {"end_time", "step", "tolerance", "initial", "integrator"})
     if (has(part(json, "analysis"), key)) findings.warn(child("analysis", key), "has no effect " + here);

@@ -21,6 +21,12 @@ struct HistoryColumn {
   std::string heading() const { return name + "." + quantity + " [" + unit + "]"; }
 };
 
+/// What a row of histories between two frames is read from: all but what needs all elements.
+inline constexpr SnapshotContents contents_between_frames{.beams = false, .measures = false};
+inline bool is_known_between_frames(const HistoryColumn& column) {
+  return !column.contents.beams && !column.contents.measures;
+}
+
 /// All but the time. New ones are added at the end.
 std::vector<HistoryColumn> history_columns(const SnapshotNames& names);
 

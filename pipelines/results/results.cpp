@@ -135,17 +135,33 @@ struct ResultsWriter::Implementation {
   fs::path directory;
   SnapshotNames names;
   std::string title;
+  fs::path former;  // the rows of the run that this goes on from, where they are more than the frames
   HistoryTable histories;
   std::vector<StoredRows> chunk_rows;
   std::vector<Snapshot> open;
   StoredRows open_rows;
   std::optional<OpenFile> ahead;  // with elements of the next frame
 
-  Implementation(fs::path where, SnapshotNames of, std::string name)
+  Implementation(fs::path where, SnapshotNames of, std::string name, std::optional<RowsBefore> rows = {})
       : directory(created(where)),
         names(std::move(of)),
         title(std::move(name)),
-        histories(temporary_name(history_file(directory)), names) {}
+        former(rows ? set_aside() : fs::path()),
+        histories(temporary_name(history_file(directory)), names) {
+    if (!rows) return;
+    histories.take_over(former, *rows);
+    fs::remove(former);
+  }
+
+  /// The table of a run that was killed, or has ended, under another name: this run begins one of its own.
+  /// What has that name already was set aside by a run that was killed before it had taken it over.
+  fs::path set_aside() const {
+    const fs::path table = history_file(directory), aside = table.string() + ".former";
+    for (const fs::path& file : {temporary_name(table), table})
+      if (!is_there(aside) && is_there(file)) fs::rename(file, aside);
+    if (!is_there(aside)) fail(table, "does not exist; run without --resume");
+    return aside;
+  }
 
   void close_chunk() {
     if (open.empty()) return;
@@ -212,6 +228,7 @@ struct ResultsWriter::Implementation {
     if (left > 0)
       fail(directory, "holds " + std::to_string(frames - left) +
                           " frames of the run; its restart point needs " + std::to_string(frames));
+    if (!former.empty()) return;
     for (const fs::path& file : chunks()) {
       const FrameReader chunk(file);
       for_each_batch(chunk, chunk.times().size(), [&](const auto& stored) {
@@ -242,8 +259,9 @@ ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
 ResultsWriter::~ResultsWriter() = default;
 
 ResultsWriter ResultsWriter::resume(fs::path directory, SnapshotNames names, std::string title,
-                                    std::size_t frames) {
-  auto files = std::make_unique<Implementation>(std::move(directory), std::move(names), std::move(title));
+                                    std::size_t frames, std::optional<RowsBefore> rows) {
+  auto files =
+      std::make_unique<Implementation>(std::move(directory), std::move(names), std::move(title), rows);
   files->take_over(frames);
   return ResultsWriter(std::move(files));
 }
@@ -260,11 +278,19 @@ void ResultsWriter::write(Snapshot frame) {
   if (files.open_rows.elements >= most_open_elements) files.close_chunk();
 }
 
+void ResultsWriter::write_between(const Snapshot& moment) {
+  HistoryTable& histories = implementation_->histories;
+  if (moment.time != histories.last_time()) histories.write_between(moment);
+}
+
 void ResultsWriter::write_ahead(std::span<const ElementRecord> elements) {
   implementation_->write_ahead(elements);
 }
 
-void ResultsWriter::close_chunk() { implementation_->close_chunk(); }
+void ResultsWriter::close_chunk() {
+  implementation_->close_chunk();
+  implementation_->histories.put_on_disk();
+}
 
 std::size_t ResultsWriter::frame_count() const { return implementation_->all_rows().frames; }
 

@@ -9,6 +9,7 @@
 
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/record/snapshot.h"
+#include "pipelines/results/history_table.h"
 
 namespace nurbeam {
 
@@ -35,17 +36,21 @@ class ResultsWriter {
   ResultsWriter(std::filesystem::path directory, SnapshotNames names, std::string title);
   /// Goes on after the first `frames` frames that an earlier run, finished or killed, has left in the
   /// directory; later ones are dropped. Throws std::runtime_error (file and reason) when there are fewer.
+  /// `rows`: those of histories.csv that are kept, where they are not those of the frames alone.
   static ResultsWriter resume(std::filesystem::path directory, SnapshotNames names, std::string title,
-                              std::size_t frames);
+                              std::size_t frames, std::optional<RowsBefore> rows = {});
   ResultsWriter(ResultsWriter&&) noexcept;
   ~ResultsWriter();
   /// Throws std::invalid_argument unless the frame has as many probes, bodies and beams as there are names,
   /// and std::runtime_error (file and reason) when it cannot be written.
   void write(Snapshot frame);
+  /// Writes a row of histories of a moment between two frames, of contents_between_frames; none where the
+  /// last row is of that time.
+  void write_between(const Snapshot& moment);
   /// Writes elements of the frame that is written next, which are handed over before it, as FrameStore has
   /// it.
   void write_ahead(std::span<const ElementRecord> elements);
-  /// Puts all frames so far on the disk. Throws std::runtime_error (file and reason).
+  /// Puts all frames and rows so far on the disk. Throws std::runtime_error (file and reason).
   void close_chunk();
   /// Gives the files their names; nothing may be written after it. Throws std::runtime_error.
   void finish();

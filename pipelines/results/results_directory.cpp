@@ -29,7 +29,7 @@ std::string complete_name(const fs::path& name) {
 /// The names that a run gives to its files, complete or not.
 bool is_of_a_run(const fs::path& name) {
   static const std::regex ours(
-      R"(histories\.csv|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|run\.log|frames\.pvd|)"
+      R"(histories\.csv(\.former)?|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|run\.log|frames\.pvd|)"
       R"(modes\.csv|mode_[0-9]+\.pvd|report\.html|)"
       R"(deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_section_lines|_source)?\.(step|igs|dxf|brep))");
   return std::regex_match(complete_name(name), ours);

@@ -27,6 +27,7 @@
 #include "pipelines/results/results_directory.h"
 #include "pipelines/results/run_summary.h"
 #include "pipelines/run/closing_lines.h"
+#include "pipelines/run/history_rows.h"
 #include "pipelines/run/kept_memory.h"
 #include "pipelines/run/mode_run.h"
 #include "pipelines/run/motion_mesh.h"
@@ -230,15 +231,44 @@ class Run {
     };
     // The model itself, which stays where it is: a copy would be there as long.
     const std::shared_ptr<const BeamModel> model(std::shared_ptr<void>(), &built_.model);
-    SimulationReport simulated = simulated_until_thrown(model, std::move(observer));
+    SimulationReport simulated = simulated_until_thrown(model, std::move(observer), outputs);
     shown.finish();
     simulated.motion_seconds = std::max(0.0, simulated.motion_seconds - outputs.seconds());
     return simulated;
   }
 
+  // The run, with the rows of histories that are due at the ends of its steps: also before a restart point is
+  // written, which counts them.
+  SimulationReport simulated_with_rows(const std::shared_ptr<const BeamModel>& model,
+                                       SimulationObserver observer, RunOutputs& outputs) {
+    const HistoryRows rows(case_.output);
+    const bool has_rows = rows.any() && case_.analysis.type == CaseAnalysis::Type::dynamic;
+    const Simulation* running = nullptr;
+    double frame = -1, seen = from_ ? from_->state.t : 0;
+    const auto write_row = [&] {
+      const double now = running->state().t;
+      if (has_rows && now != frame && rows.due(seen, now))
+        outputs.write_between(running->present(contents_between_frames));
+      seen = now;
+    };
+    observer.snapshot = [&frame, told = std::move(observer.snapshot)](Snapshot snapshot) {
+      frame = snapshot.time;
+      told(std::move(snapshot));
+    };
+    observer.checkpoint = [&write_row, told = std::move(observer.checkpoint)](Checkpoint point) {
+      write_row();
+      told(std::move(point));
+    };
+    Simulation simulation(model, probe_places(built_), simulation_options(case_), std::move(observer),
+                          from_ ? &*from_ : nullptr);
+    running = &simulation;
+    while (simulation.advance()) write_row();
+    return simulation.report();
+  }
+
   // What functions of the caller throw ends the run as an interruption does, and is thrown behind it.
   SimulationReport simulated_until_thrown(const std::shared_ptr<const BeamModel>& model,
-                                          SimulationObserver observer) {
+                                          SimulationObserver observer, RunOutputs& outputs) {
     SimulationReport so_far;
     so_far.time = from_ ? from_->state.t : 0;
     observer.progress = [&so_far, told = std::move(observer.progress)](const StepRecord& step) {
@@ -247,8 +277,7 @@ class Run {
       told(step);
     };
     try {
-      return simulate(model, probe_places(built_), simulation_options(case_), observer,
-                      from_ ? &*from_ : nullptr);
+      return simulated_with_rows(model, std::move(observer), outputs);
     } catch (const std::runtime_error&) {  // of our own: files that cannot be written
       throw;
     } catch (...) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nurbs/number_text.h"
+#include "pipelines/run/history_rows.h"
 #include "pipelines/run/model_digest.h"
 
 namespace nurbeam {
@@ -14,14 +15,22 @@ constexpr std::chrono::seconds restart_interval{2};
 /// And this many times what the last one took to write.
 constexpr int least_rest = 20;
 
-ResultsWriter results_writer(const std::string& title, const BuiltModel& built,
-                             const std::filesystem::path& directory, const Checkpoint* from) {
-  if (from) return ResultsWriter::resume(directory, snapshot_names(built), title, from->snapshots);
-  return ResultsWriter(directory, snapshot_names(built), title);
-}
-
 std::vector<double> times_before(const std::filesystem::path& directory, const Checkpoint* from) {
   return from && from->snapshots > 0 ? StoredFrames(directory).times() : std::vector<double>{};
+}
+
+ResultsWriter results_writer(const CaseFile& c, const BuiltModel& built,
+                             const std::filesystem::path& directory, const Checkpoint* from) {
+  if (!from) return ResultsWriter(directory, snapshot_names(built), c.name);
+  std::optional<RowsBefore> rows;
+  if (const HistoryRows due(c.output); due.any()) {
+    const double time = from->state.t;
+    const std::vector<double> frames = times_before(directory, from);  // too few are told of later
+    const bool is_frame =
+        from->snapshots > 0 && from->snapshots <= frames.size() && frames[from->snapshots - 1] == time;
+    rows = RowsBefore{time, is_frame || due.due(time - from->last_step, time)};
+  }
+  return ResultsWriter::resume(directory, snapshot_names(built), c.name, from->snapshots, rows);
 }
 
 std::vector<std::string> texts_of(const std::vector<Diagnostic>& warnings) {
@@ -46,7 +55,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       directory_(directory),
       inputs_(std::move(inputs)),
       model_(model_digest(case_file, built)),
-      results_(results_writer(case_file.name, built, directory, from)),
+      results_(results_writer(case_file, built, directory, from)),
       cad_(case_file, built, directory, from ? from->snapshots : 0),
       next_restart_(Clock::now() + restart_interval),
       names_(snapshot_names(built)),
@@ -93,6 +102,13 @@ void RunOutputs::write(Snapshot local) {
     look_at(frame);
     cad_.write(frame, diagnostics_);
     results_.write(std::move(frame));
+  });
+}
+
+void RunOutputs::write_between(Snapshot local) {
+  timed([&] {
+    const Snapshot moment = to_world(built_.frame, std::move(local));
+    results_.write_between(moment);
   });
 }
 

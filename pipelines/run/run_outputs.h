@@ -31,6 +31,9 @@ class RunOutputs {
   void write_ahead(double time, int beam, std::vector<ElementRecord>& local);
   /// Writes one frame, in the model's own coordinates.
   void write(Snapshot local);
+  /// Writes a row of histories of a moment between two frames, of contents_between_frames, in the model's own
+  /// coordinates. Of the time of a frame there is its own row.
+  void write_between(Snapshot local);
   /// Looks at a moment between two frames, in the model's own coordinates: its extremes count.
   void look_between(Snapshot local);
   /// Writes a frame that shows a shape, in the model's own coordinates: no extreme counts.

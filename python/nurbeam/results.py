@@ -348,10 +348,11 @@ class Results(Sequence[Snapshot]):
 
     @property
     def histories(self) -> Histories:
-        """Values over the output times."""
+        """Values over the output times, or over the rows of `output.histories_every`; these are more, and between output
+        times NaN where all elements would be needed."""
         recording = self._recording
-        if self._histories is None or len(self._histories["time"]) != len(recording):
-            self._histories = Histories(recording.times(), recording.columns(), recording.histories())
+        if self._histories is None or len(self._histories["time"]) != recording.history_count():
+            self._histories = Histories(recording.history_times(), recording.columns(), recording.histories())
         return self._histories
 
     @property
@@ -495,7 +496,7 @@ class Results(Sequence[Snapshot]):
         """The histories as a pandas DataFrame over time; `.attrs["units"]` holds the units."""
         import pandas
 
-        frame = pandas.DataFrame({k: v for k, v in self.histories.items() if k != "time"}, index=self.times)
+        frame = pandas.DataFrame({k: v for k, v in self.histories.items() if k != "time"}, index=self.histories["time"])
         frame.index.name = "time"
         frame.attrs["units"] = dict(self.histories.units)
         return frame
@@ -514,7 +515,7 @@ class Results(Sequence[Snapshot]):
 
         of = self.histories
         shown = names or [name for name in of if name.startswith("energy.")]
-        return plots.histories(self.times, {name: (of[name], of.unit(name)) for name in shown}, ax)
+        return plots.histories(of["time"], {name: (of[name], of.unit(name)) for name in shown}, ax)
 
     def plot_shape(
         self,

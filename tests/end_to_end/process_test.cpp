@@ -118,18 +118,18 @@ std::string content_of(const std::filesystem::path& file) {
 }
 
 // A run of some seconds, through splits and merges, until the body has left the beam.
-std::string long_run(const std::filesystem::path& out) {
+std::string long_run(const std::filesystem::path& out, const std::string& rows) {
   return "run " + test::sample("falling_beam/falling_beam.json").string() +
          " --quiet --set beams[0].elements.count=40 --set analysis.step=5e-5 --set output.every=5e-3 "
-         "--set analysis.end_time=0.8 --set output.paraview=true --out " +
-         out.string();
+         "--set analysis.end_time=0.8 --set output.paraview=true " +
+         rows + " --out " + out.string();
 }
 
-TEST(Process, ARunThatIsKilledAtRandomMomentsAndResumedIsTheRunWithoutABreak) {
+void check_killed_runs(const std::string& rows) {
   const TemporaryDirectory directory;
   const auto whole = directory.path() / "whole", cut = directory.path() / "cut";
   const auto start = std::chrono::steady_clock::now();
-  Process uninterrupted(directory, long_run(whole));
+  Process uninterrupted(directory, long_run(whole, rows));
   ASSERT_EQ(uninterrupted.code(), done) << uninterrupted.messages();
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
 
@@ -141,7 +141,7 @@ TEST(Process, ARunThatIsKilledAtRandomMomentsAndResumedIsTheRunWithoutABreak) {
   // begins anew. The last try is not killed.
   for (; code != done && kills < 12; ++kills) {
     const bool resumes = std::filesystem::exists(cut / "restart.nc");
-    Process run(directory, long_run(cut) + (resumes ? " --resume" : ""));
+    Process run(directory, long_run(cut, rows) + (resumes ? " --resume" : ""));
     const double wait = moment(random);
     moments += std::to_string(wait) + " ";
     if (kills < 11) {
@@ -161,6 +161,11 @@ TEST(Process, ARunThatIsKilledAtRandomMomentsAndResumedIsTheRunWithoutABreak) {
         << file << ", killed after " << moments << "s";
   EXPECT_EQ(content_of(cut / "frames/beams_000160.vtu"), content_of(whole / "frames/beams_000160.vtu"));
   EXPECT_FALSE(std::filesystem::exists(cut / "results.chunk0001.nc"));
+  EXPECT_FALSE(std::filesystem::exists(cut / "histories.csv.former"));
+}
+TEST(Process, ARunThatIsKilledAtRandomMomentsAndResumedIsTheRunWithoutABreak) { check_killed_runs(""); }
+TEST(Process, SoIsOneWithMoreRowsOfHistoriesThanFrames) {
+  check_killed_runs("--set output.histories_every=1.7e-4");
 }
 
 TEST(Process, AnInterruptedRunIsResumedByItsOwnCaseOnly) {

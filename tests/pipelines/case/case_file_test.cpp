@@ -764,6 +764,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "radial",
                                                "mu",
                                                "centre",
+                                               "histories_every",
                                                "fastened",
                                                "inertia",
                                                "on",
