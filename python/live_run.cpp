@@ -149,6 +149,7 @@ LiveRun::LiveRun(std::shared_ptr<BuiltCase> of, const Functions& functions, cons
       checks_(of_->built().model),
       extremes_(start ? start->extremes : std::vector<double>{}),
       rows_(of_->case_file.output),
+      contacts_(of_->built()),
       simulation_(model_of(*of_, functions, start), probe_places(of_->built()),
                   simulation_options(of_->case_file),
                   observer_of(*of_, *recording_, checks_, extremes_, interrupts_, begun_), start),
@@ -202,12 +203,18 @@ void LiveRun::keep_row(double before) {
   std::optional<Snapshot> between;
   if (!is_frame) between = to_world(of_->built().frame, simulation_.present(contents_between_frames));
   const Snapshot& moment = between ? *between : recording.frames.back();
+  contacts_.look_at(moment);
   const WithLock lock;
   recording.row_times.push_back(time_);
   for (const HistoryColumn& column : columns_)
     recording.row_values.push_back(is_frame || is_known_between_frames(column)
                                        ? column.value(moment)
                                        : std::numeric_limits<double>::quiet_NaN());
+}
+
+std::string LiveRun::collectors() const {
+  const Moment moment(*this);
+  return collectors_as_json(contacts_.outcomes());
 }
 
 bool LiveRun::step() {

@@ -9,6 +9,7 @@
 #include "fem/motion/run/simulation.h"
 #include "pipelines/results/history_columns.h"
 #include "pipelines/results/run_extremes.h"
+#include "pipelines/run/contact_records.h"
 #include "pipelines/run/history_rows.h"
 #include "pipelines/run/run_checks.h"
 #include "python/built_case.h"
@@ -50,6 +51,8 @@ class LiveRun {
     return read(simulation_);
   }
   std::vector<RunExtreme> extremes() const;
+  /// As run.json has them.
+  std::string collectors() const;
   /// The present state as a snapshot of its own.
   Frame now() const;
   /// Values of histories at the present moment, by their names; NaN where there is none. Only what they need
@@ -82,6 +85,7 @@ class LiveRun {
   FrameChecks checks_;
   RunExtremes extremes_;
   HistoryRows rows_;
+  ContactRecords contacts_;
   Interrupts interrupts_;
   std::atomic<bool> begun_ = false, ended_ = false;
   Simulation simulation_;

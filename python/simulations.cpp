@@ -180,6 +180,7 @@ void bind_simulations(py::module_& module) {
                                     "value"_a = each.value, "s [m]"_a = each.s, "time [s]"_a = each.time));
              return list;
            })
+      .def("collectors", &LiveRun::collectors)
       .def("report", [](const LiveRun& run) {
         const BuiltCase& of = *run.of();
         const auto [report, warnings] = run.report();

@@ -92,6 +92,9 @@ bool fits_json_type(const Shape& shape, const Json& value) {
       return value.is_number();
     case Kind::quantity:
       return value.is_number() || value.is_string();
+    case Kind::either:
+      return std::any_of(shape.items.begin(), shape.items.end(),
+                         [&](const Shape& item) { return fits_json_type(item, value); });
     default:
       return value.is_string();
   }

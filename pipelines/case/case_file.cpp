@@ -7,6 +7,7 @@
 #include "pipelines/case/case_analysis.h"
 #include "pipelines/case/case_beam.h"
 #include "pipelines/case/case_check.h"
+#include "pipelines/case/case_collector.h"
 #include "pipelines/case/case_connector.h"
 #include "pipelines/case/case_output.h"
 #include "pipelines/case/case_overrides.h"
@@ -203,6 +204,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
   read_all("stops", result.stops, read_stop);
   read_all("joints", result.joints, read_beam_joint);
   read_all("connectors", result.connectors, read_connector);
+  read_all("collectors", result.collectors, read_collector);
   add_fastenings(result);
   result.laws = read_laws(json);
   const bool nothing_deforms = std::ranges::all_of(result.beams, &CaseBeam::rigid);
@@ -213,6 +215,8 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
     if (!factors.empty()) result.analysis.end_time = factors.back();
   }
   result.output = read_output(part(json, "output"), result.analysis, directory, findings);
+  if (!result.collectors.empty() && !result.output.histories_every)
+    result.output.histories_at_steps = result.analysis.type == CaseAnalysis::Type::dynamic;
   return result;
 }
 

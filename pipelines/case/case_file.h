@@ -22,6 +22,7 @@
 #include "pipelines/case/parts/beam.h"
 #include "pipelines/case/parts/beam_joint.h"
 #include "pipelines/case/parts/body.h"
+#include "pipelines/case/parts/collector.h"
 #include "pipelines/case/parts/connector.h"
 #include "pipelines/case/parts/eyelet.h"
 #include "pipelines/case/parts/reel.h"
@@ -67,6 +68,7 @@ struct CaseFile {
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseConnector> connectors;
+  std::vector<CaseCollector> collectors;
   CaseAnalysis analysis;
   CaseOutput output;
   std::vector<CaseLaw> laws = {};  ///< of a case made in memory

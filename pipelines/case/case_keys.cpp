@@ -79,6 +79,8 @@ const Shape& case_keys() {
               {"joints", array(beam_joint_fields().shape()), "which beams are joined to each other"},
               {"connectors", short_array(connector_fields().shape()),
                "springs, ropes and rods between bodies, beams and points"},
+              {"collectors", array(collector_fields().shape()),
+               "pantographs: sprung masses that press on a wire and travel along it"},
               {"analysis", analysis_shape(), "what to compute", required},
               {"output", output_shape(), "what to store"}});
   return shape;

@@ -21,7 +21,8 @@ Shape output_shape() {
       {{"every", quantity(Dimension::time, plausible(1e-12, 1e9)),
         "time between stored frames; a hundredth of `end_time` when omitted, but no less than `step`"},
        {"histories_every", either(choice({"step"}), quantity(Dimension::time, plausible(1e-12, 1e9))),
-        "time between rows of histories, or a row at every step; those of stored frames alone when omitted"},
+        "time between rows of histories, or a row at every step; those of stored frames alone when omitted, and "
+        "every step with `collectors`"},
        {"cad", cad, "deformed axes as CAD files"},
        {"probes", short_array(probe_fields().shape()), "points whose motion is stored"},
        {"clearances", short_array(clearance_fields().shape()), "heights of beams over the ground"},

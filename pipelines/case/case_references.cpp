@@ -6,6 +6,7 @@
 #include <set>
 
 #include "nurbs/number_text.h"
+#include "pipelines/case/case_collector.h"
 #include "pipelines/case/case_connector.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -43,8 +44,8 @@ void check_names(const Json& json, Findings& findings) {
              clearances = collect(part(json, "output"), "clearances", "output");
   const auto supports = collect(json, "supports", ""), joints = collect(json, "joints", "");
   const auto connectors = collect(json, "connectors", ""), eyelets = collect(json, "eyelets", ""),
-             reels = collect(json, "reels", "");
-  for (const auto& more : {probes, clearances, supports, joints, connectors, eyelets, reels})
+             reels = collect(json, "reels", ""), collectors = collect(json, "collectors", "");
+  for (const auto& more : {probes, clearances, supports, joints, connectors, eyelets, reels, collectors})
     columns.insert(columns.end(), more.begin(), more.end());
   check_unique(columns, findings);
   // The columns of a vector belong to the body: "B.joint_force.x".
@@ -121,7 +122,7 @@ void check_references(const Json& json, Findings& findings) {
     check_references(json, json, "loads", "", "beam", *beams, findings);
     check_references(json, json, "supports", "", "beam", *beams, findings);
     check_references(json, json, "sliding_joints", "", "beam", *beams, findings);
-    for (const char* key : {"eyelets", "reels"})
+    for (const char* key : {"eyelets", "reels", "collectors"})
       check_references(json, json, key, "", "beam", *beams, findings);
     for_each_item(json, "bodies", "", [&](const Json& body, const std::string& path) {
       const std::string name = text(part(body, "fastened"), "beam");
@@ -335,6 +336,7 @@ void check_across(const Json& json, const CaseFile& case_file, Findings& finding
   check_names(json, findings);
   check_references(json, findings);
   check_connectors(case_file, findings);
+  check_collectors(case_file, findings);
   check_times(json, case_file, findings);
   check_cad_factors(case_file, findings);
   check_modes(case_file, findings);

@@ -27,6 +27,14 @@ void take(const Json& value, std::vector<std::string>& to) {
   for (const Json& item : value)
     if (!item.is_null()) to.push_back(item.get<std::string>());
 }
+void take(const Json& value, std::vector<double>& to) {
+  for (const Json& item : value)
+    if (!item.is_null()) to.push_back(item.get<double>());
+}
+void take(const Json& value, std::vector<std::vector<double>>& to) {
+  for (const Json& item : value)
+    if (!item.is_null()) take(item, to.emplace_back());
+}
 void take(const Json& value, TimeTable& to) {
   if (!value.is_array()) {
     to = {{0, value.get<double>()}};

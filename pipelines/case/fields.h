@@ -32,6 +32,8 @@ void take(const Json& value, Eigen::Vector2d& to);
 void take(const Json& value, Eigen::Vector3d& to);
 void take(const Json& value, std::array<double, 2>& to);
 void take(const Json& value, std::vector<std::string>& to);
+void take(const Json& value, std::vector<double>& to);
+void take(const Json& value, std::vector<std::vector<double>>& to);
 void take(const Json& value, TimeTable& to);  ///< rows, or one number at all times
 void take(const Json& value, std::vector<DisplacementTable::Row>& to);
 void take(const Json& value, Place& to);

@@ -285,7 +285,12 @@ void put_in_tables(const Shape& shape, Json& value, const std::string& path,
     for (std::size_t i = 0; i < value.size(); ++i)
       put_in_tables(shape.items[0], value[i], child(path, i), directory, findings);
   } else if (shape.kind == Kind::either) {
-    for (const Shape& item : shape.items) put_in_tables(item, value, path, directory, findings);
+    // An object that is not a table's file, where there may be either.
+    const bool is_object =
+        value.is_object() && !value.contains("file") &&
+        std::ranges::any_of(shape.items, [](const Shape& item) { return item.kind == Kind::object; });
+    for (const Shape& item : shape.items)
+      if (!is_object || item.kind == Kind::object) put_in_tables(item, value, path, directory, findings);
   } else if (shape.kind == Kind::table && value.is_object()) {
     value = TableFile(shape, value, path, directory, findings).rows();
   }

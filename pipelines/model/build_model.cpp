@@ -20,6 +20,7 @@
 #include "pipelines/model/check_freedom.h"
 #include "pipelines/model/check_guides.h"
 #include "pipelines/model/check_sizes.h"
+#include "pipelines/model/collectors.h"
 #include "pipelines/model/connectors.h"
 #include "pipelines/model/divide_beam.h"
 #include "pipelines/model/drawn_beam.h"
@@ -94,6 +95,8 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
     if (resolved.field->attraction > 0) forces.push_back(resolved.field->centre - origin);
     if (resolved.field->radial) forces.push_back(*resolved.field->radial);
   }
+  for (const CaseCollector& collector : resolved.collectors)
+    forces.insert(forces.end(), {collector.travel, collector.up});
   for (const CaseLaw& law : resolved.laws)
     if (law.spatial)
       for (int d = 0; d < 3; ++d) forces.emplace_back(Eigen::Vector3d::Unit(d));
@@ -509,6 +512,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (!findings.has_errors()) add_eyelets(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_reels(resolved, beams, held, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
+  if (!findings.has_errors())
+    built.collectors = add_collectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
@@ -520,6 +525,8 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
     built.adapted = adapt_elements(resolved, built.model, interrupted, findings);
     if (findings.has_errors()) return {};
   } while (built.adapted && smooth_fine_kinks(built.model, built.slopes));
+  find_lengths_without(built.collectors, interrupted, built.model, findings);
+  if (findings.has_errors()) return {};
   check_freedom(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   check_turns(resolved.beams, built.model, built.frame, findings);

@@ -11,6 +11,7 @@
 #include "fem/motion/rest/adapted_mesh.h"
 #include "pipelines/case/case_file.h"
 #include "pipelines/model/beam_axis.h"
+#include "pipelines/model/collectors.h"
 #include "pipelines/model/law_of_motion.h"
 #include "pipelines/model/model_frame.h"
 #include "pipelines/model/section_outline.h"
@@ -52,8 +53,9 @@ struct BuiltModel {
   std::vector<std::vector<Grip>> laws = {};  ///< where each law of the case acts
   std::vector<LawOfMotion> motions = {};     ///< that functions prescribe
   std::vector<std::vector<int>> loads = {};  ///< per load of the case: its forces, one for each of its beams
-  std::vector<SlopeDecision> slopes = {};    ///< where something holds or loads a beam
-  std::optional<AdaptedMesh> adapted = {};   ///< where beams name a tolerance instead of a number of elements
+  std::vector<Collector> collectors = {};
+  std::vector<SlopeDecision> slopes = {};   ///< where something holds or loads a beam
+  std::optional<AdaptedMesh> adapted = {};  ///< where beams name a tolerance instead of a number of elements
   std::vector<std::filesystem::path> inputs;  ///< CAD files read
   double import_seconds = 0;
 };

@@ -79,7 +79,7 @@ class FreedomCheck {
     Eigen::VectorXd padded = Eigen::VectorXd::Zero(kkt.rows());
     padded.head(system.coordinate_count()) = state.v;
     const Eigen::VectorXd rates = (kkt * padded).tail(system.constraint_count());
-    for (std::size_t i = 0; i < model_.connectors.size(); ++i) {
+    for (std::size_t i = 0; i < resolved_.connectors.size(); ++i) {  // those of collectors come behind them
       const auto row = row_of_rod(system, static_cast<int>(i));
       if (!row || std::abs(rates[*row]) <= 1e-9 * state.v.lpNorm<Eigen::Infinity>()) continue;
       findings_.warn(
@@ -95,7 +95,7 @@ class FreedomCheck {
 
   void refuse(const BeamSystem& system, const DependentConstraints& set, bool held) {
     const std::string where = held ? "where an equilibrium is sought, with sliding bodies held, " : "";
-    for (int i = static_cast<int>(model_.connectors.size()) - 1; i >= 0; --i)
+    for (int i = static_cast<int>(resolved_.connectors.size()) - 1; i >= 0; --i)
       if (const auto row = row_of_rod(system, i); row && contains(set.rows, *row))
         return findings_.error(
             resolved_.connectors[i].path,

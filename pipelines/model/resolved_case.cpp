@@ -186,6 +186,7 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
   each_needs_one(resolved.sliding_joints);
   each_needs_one(resolved.eyelets);
   each_needs_one(resolved.reels);
+  each_needs_one(resolved.collectors);
   each_needs_one(resolved.stops);
   for (const CaseBeamJoint& joint : resolved.joints)
     for (const std::string& name : joint.beams)
@@ -212,6 +213,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .stops = case_file.stops,
                         .joints = case_file.joints,
                         .connectors = case_file.connectors,
+                        .collectors = case_file.collectors,
                         .probes = case_file.output.probes,
                         .clearances = case_file.output.clearances,
                         .laws = case_file.laws,

@@ -27,6 +27,7 @@ struct ResolvedCase {
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseConnector> connectors;
+  std::vector<CaseCollector> collectors = {};
   std::vector<CaseProbe> probes;
   std::vector<CaseClearance> clearances;
   std::vector<CaseLaw> laws = {};

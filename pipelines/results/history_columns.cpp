@@ -1,5 +1,6 @@
 #include "pipelines/results/history_columns.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "pipelines/results/frame_layout.h"
@@ -166,6 +167,41 @@ void add_measures(const SnapshotNames& names, Columns& columns) {
   }
 }
 
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
+// Numbers of NAME.KIND_1, NAME.KIND_2, ...
+std::vector<std::size_t> numbered(const std::vector<std::string>& names, const std::string& before) {
+  std::vector<std::size_t> found;
+  for (;;) {
+    const std::size_t i = index_of(names, before + std::to_string(found.size() + 1));
+    if (i == names.size()) return found;
+    found.push_back(i);
+  }
+}
+
+// A collector NAME is made of connectors and bodies: NAME.contact, NAME.spring_1, ..., NAME.mass_1, ...
+void add_collectors(const SnapshotNames& names, Columns& columns) {
+  const std::string ending = ".contact";
+  for (std::size_t contact = 0; contact < names.connectors.size(); ++contact) {
+    const std::string& connector = names.connectors[contact];
+    if (!connector.ends_with(ending)) continue;
+    const std::string name = connector.substr(0, connector.size() - ending.size());
+    const std::vector<std::size_t> springs = numbered(names.connectors, name + ".spring_"),
+                                   masses = numbered(names.bodies, name + ".mass_");
+    if (springs.empty() || masses.size() != springs.size()) continue;
+    columns.of("collector", contact, name);
+    columns.add("force", "N",
+                [contact](const Snapshot& f) { return std::max(0.0, -f.connectors[contact].force); });
+    columns.add("height", "m", [springs](const Snapshot& f) {
+      double height = 0;
+      for (const std::size_t spring : springs) height += f.connectors[spring].length;
+      return height;
+    });
+  }
+}
+
 }  // namespace
 
 std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
@@ -179,6 +215,7 @@ std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
   add_friction(names, columns);
   add_connectors(names, columns);
   add_measures(names, columns);
+  add_collectors(names, columns);
   return all;
 }
 

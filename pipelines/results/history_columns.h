@@ -9,7 +9,7 @@ namespace nurbeam {
 
 /// One history of a run: what histories.csv, the report and the static values show, in their order.
 struct HistoryColumn {
-  std::string of;     ///< what it belongs to: probe, body, beam, reaction or energy
+  std::string of;     ///< what it belongs to: probe, body, beam, reaction, collector or energy
   std::size_t index;  ///< number within it
   std::string name;   ///< of that object; "energy"
   std::string quantity, unit;

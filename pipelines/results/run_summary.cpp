@@ -1,5 +1,6 @@
 #include "pipelines/results/run_summary.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -52,6 +53,46 @@ Json to_json(const RunExtreme& extreme) {
                {"s [m]", extreme.s ? Json(*extreme.s) : Json()},
                {"time [s]", extreme.time}};
   if (extreme.layer) json["in a layer of [m]"] = *extreme.layer;
+  return json;
+}
+
+Json or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json to_json(const ForceStatistics& force) {
+  return {{"frequencies [Hz]", {force.low, or_null(force.high)}},
+          {"mean [N]", force.mean},
+          {"standard deviation [N]", force.deviation},
+          {"mean - 3 deviations [N]", force.mean - 3 * force.deviation},
+          {"mean + 3 deviations [N]", force.mean + 3 * force.deviation},
+          {"least [N]", force.least},
+          {"greatest [N]", force.greatest},
+          {"1 % quantile [N]", force.quantile_1},
+          {"99 % quantile [N]", force.quantile_99},
+          {"histogram", force.histogram}};
+}
+
+Json to_json(const CollectorOutcome& collector) {
+  const ContactStatistics& contact = collector.contact;
+  Json json = {{"name", collector.name},
+               {"evaluate [m]", {or_null(collector.from), or_null(collector.to)}},
+               {"samples", contact.samples}};
+  if (contact.samples > 0) {
+    Json bands = Json::array();
+    for (const ForceStatistics& band : contact.bands) bands.push_back(to_json(band));
+    json.update({{"from [s]", contact.start},
+                 {"to [s]", contact.end},
+                 {"force", to_json(contact.filtered)},
+                 {"unfiltered force", to_json(contact.unfiltered)},
+                 {"bands", bands},
+                 {"loss of contact",
+                  {{"part of the time [%]", 100 * contact.lost_part},
+                   {"number", contact.losses},
+                   {"longest [s]", contact.longest_loss}}}});
+  }
+  Json uplifts = Json::array();
+  for (const Uplift& uplift : collector.uplift)
+    uplifts.push_back({{"probe", uplift.probe}, {"value [m]", uplift.value}, {"time [s]", uplift.time}});
+  json["uplift"] = uplifts;
   return json;
 }
 
@@ -116,6 +157,7 @@ Json to_json(const RunSummary& summary) {
                {"evidence", list(summary.evidence)},
                {"diagnostics", list(summary.diagnostics)},
                {"files", list(summary.files)}};
+  if (!summary.collectors.empty()) json["collectors"] = list(summary.collectors);
   if (summary.modes) {
     json[summary.modes->buckling ? "buckling" : "modes"] = to_json(*summary.modes);
     if (!summary.modes->buckling) json["mass [kg]"] = summary.modes->mass;
@@ -149,6 +191,10 @@ void write_run_summary(const std::filesystem::path& file, const RunSummary& summ
       with_checksum(to_json(summary).dump(-1, ' ', false, Json::error_handler_t::replace));
   for (const Diagnostic& problem : write_at_once(file, text))
     throw std::runtime_error(problem.where + ": " + problem.message);
+}
+
+std::string collectors_as_json(const std::vector<CollectorOutcome>& collectors) {
+  return list(collectors).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::map<std::string, std::string> drawn_curve_names(const std::filesystem::path& directory) {

@@ -9,6 +9,7 @@
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/record/run_event.h"
 #include "fem/motion/record/snapshot.h"
+#include "pipelines/results/contact_statistics.h"
 #include "pipelines/results/evidence.h"
 #include "pipelines/results/mode_table.h"
 #include "pipelines/results/run_extremes.h"
@@ -76,6 +77,7 @@ struct RunSummary {
   std::map<std::string, double> round_off;  ///< of values, by their unit
   Mismatch axial_mismatch;
   std::vector<RunExtreme> extremes;
+  std::vector<CollectorOutcome> collectors = {};
   std::optional<ModeTable> modes = {};  ///< of an analysis of modes or buckling
   std::vector<FeatureEvidence> evidence;
   std::vector<Diagnostic> diagnostics;
@@ -85,6 +87,9 @@ struct RunSummary {
 /// Writes the summary as JSON, to a temporary name that is renamed. Numbers that are not finite become null.
 /// Throws std::runtime_error (file and reason).
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary);
+
+/// The array that run.json has under "collectors".
+std::string collectors_as_json(const std::vector<CollectorOutcome>& collectors);
 
 /// Of each beam of the run, as that says in a results directory, its name and that of its drawn curve; empty
 /// where it says nothing, as of a run that was killed.

@@ -92,6 +92,29 @@ void add_endings(const RunSummary& summary, std::vector<std::string>& lines) {
   if (more > 0) lines.push_back("... and " + std::to_string(more) + " more at ends of beams");
 }
 
+// Of each collector: its force, loss of contact, and how far it lifts the wire.
+void add_collectors(const RunSummary& summary, std::vector<std::string>& lines) {
+  constexpr int digits = 4;
+  for (const CollectorOutcome& collector : summary.collectors) {
+    const ContactStatistics& contact = collector.contact;
+    if (contact.samples == 0) continue;
+    const ForceStatistics& force = contact.filtered;
+    const auto newtons = [](double value) { return text_of(value, digits); };
+    lines.push_back("contact of " + collector.name + " up to " + newtons(force.high) + " Hz: mean " +
+                    newtons(force.mean) + " N, deviation " + newtons(force.deviation) +
+                    " N, mean - 3 and + 3 deviations " + newtons(force.mean - 3 * force.deviation) + " and " +
+                    newtons(force.mean + 3 * force.deviation) + " N, " + newtons(force.least) + " to " +
+                    newtons(force.greatest) + " N, lost " + newtons(100 * contact.lost_part) +
+                    " % of the time" +
+                    (contact.losses > 0 ? " (" + std::to_string(contact.losses) + " times, at most " +
+                                              readable(contact.longest_loss, "s") + ")"
+                                        : ""));
+    for (const Uplift& uplift : collector.uplift)
+      lines.push_back("uplift of " + uplift.probe + " " + readable(uplift.value, "m") +
+                      " (t = " + text_of(uplift.time, digits) + " s)");
+  }
+}
+
 std::string energy_line(const RunSummary& summary, const SimulationReport& run, bool moves) {
   if (!moves) {
     double strain = 0;
@@ -137,6 +160,7 @@ std::vector<std::string> closing_lines(const RunSummary& summary, const Simulati
   if (!summary.modes) {
     add_extremes(summary, moves, lines);
     add_endings(summary, lines);
+    add_collectors(summary, lines);
     lines.push_back(energy_line(summary, run, moves));
   }
   lines.push_back(warnings_line(summary.diagnostics));

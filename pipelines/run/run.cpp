@@ -304,6 +304,7 @@ class Run {
     summary_.energy_drift = simulated.energy_drift;
     summary_.axial_mismatch = outputs.checks().axial_mismatch();
     summary_.extremes = outputs.extremes();
+    summary_.collectors = outputs.collectors();
     summary_.round_off = round_off(built_.model, simulated);
     summary_.events = simulated.events;
     const SnapshotNames names = snapshot_names(built_);
@@ -318,6 +319,8 @@ class Run {
     std::vector<Diagnostic> warnings = run_warnings(case_, built_, simulated, outputs.checks());
     if (summary_.modes)
       if (const auto note = fewer_modes_note(case_, *summary_.modes)) warnings.push_back(*note);
+    for (Diagnostic& warning : contact_warnings(case_.path, summary_.collectors))
+      warnings.push_back(std::move(warning));
     messages_.findings(warnings);
     print_diagnostics(*log_, warnings);
     summary_.diagnostics.insert(summary_.diagnostics.end(), warnings.begin(), warnings.end());

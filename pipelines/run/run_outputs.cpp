@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cad_import/files/atomic_file.h"
 #include "nurbs/number_text.h"
 #include "pipelines/run/history_rows.h"
 #include "pipelines/run/model_digest.h"
@@ -60,7 +61,10 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
       next_restart_(Clock::now() + restart_interval),
       names_(snapshot_names(built)),
       checks_(built.model),
-      extremes_(from ? from->extremes : std::vector<double>{}) {
+      extremes_(from ? from->extremes : std::vector<double>{}),
+      contacts_(built) {
+  if (from && !built.collectors.empty())
+    contacts_.take_over(read_histories(temporary_name(directory / "histories.csv")));
   if (case_file.output.paraview)
     paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
   if (from) diagnostics_ = warnings_of(from->said_of_files);
@@ -100,6 +104,7 @@ void RunOutputs::write(Snapshot local) {
     Snapshot frame = to_world(built_.frame, std::move(local));
     if (paraview_) paraview_->write(frame);
     look_at(frame);
+    contacts_.look_at(frame);
     cad_.write(frame, diagnostics_);
     results_.write(std::move(frame));
   });
@@ -108,6 +113,7 @@ void RunOutputs::write(Snapshot local) {
 void RunOutputs::write_between(Snapshot local) {
   timed([&] {
     const Snapshot moment = to_world(built_.frame, std::move(local));
+    contacts_.look_at(moment);
     results_.write_between(moment);
   });
 }

@@ -11,6 +11,7 @@
 #include "pipelines/results/results.h"
 #include "pipelines/results/run_extremes.h"
 #include "pipelines/run/cad_output.h"
+#include "pipelines/run/contact_records.h"
 #include "pipelines/run/run_checks.h"
 
 namespace nurbeam {
@@ -52,6 +53,7 @@ class RunOutputs {
   /// What could not be written into a CAD file; the run goes on.
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
   const FrameChecks& checks() const { return checks_; }
+  std::vector<CollectorOutcome> collectors() const { return contacts_.outcomes(); }
   const std::vector<RunExtreme>& extremes() const { return extremes_.list(); }
   /// Wall time spent here [s].
   double seconds() const { return seconds_; }
@@ -77,6 +79,7 @@ class RunOutputs {
   SnapshotNames names_;
   FrameChecks checks_;
   RunExtremes extremes_;
+  ContactRecords contacts_;
 };
 
 }  // namespace nurbeam

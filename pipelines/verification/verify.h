@@ -75,6 +75,7 @@ std::vector<VerifyProblem> rope_problems();
 std::vector<VerifyProblem> eyelet_problems();
 /// Ropes on reels, and masses and tethers in frames that turn.
 std::vector<VerifyProblem> reel_problems();
+std::vector<VerifyProblem> collector_problems();
 std::vector<VerifyProblem> rope_motion_problems();
 
 /// Runs the problems, as many at a time as there are processors, in their order; what is done so far is

@@ -369,6 +369,29 @@ class Model:
         file."""
         self.add("reels", name=name, beam=beam, end=end, stored=stored, **keys)
 
+    def add_collector(
+        self,
+        name: str,
+        beam: Beam | str,
+        at: Place,
+        travel: npt.ArrayLike,
+        masses: Sequence[Quantity],
+        stiffness: Sequence[Quantity],
+        force: Any,
+        motion: Mapping[str, Any],
+        **keys: Any,
+    ) -> None:
+        """Presses sprung masses, from the base up, on a wire from one side, and moves them along `travel`: a pantograph.
+        `force` lifts one of them: a number [N], rows [time, N], or {"per_speed_squared": ..., "offset": ...}; `motion` is
+        {"speed": ...} or {"table": rows [time, way]}. `keys`: `up`, `damping`, `force_on`, `contact`, `evaluate`, `filter`,
+        `bands`, `uplift` as in the case file. Statistics are in the report of a run into a directory, under
+        "collectors"; histories then have a row at every step."""
+        self.add(
+            "collectors",
+            name=name, beam=beam, at=at, travel=travel, masses=list(masses), stiffness=list(stiffness), force=force,
+            motion=motion, **keys,
+        )  # fmt: skip
+
     def add_connector(
         self,
         name: str,

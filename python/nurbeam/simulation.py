@@ -162,7 +162,9 @@ class Simulation:
         `steps`, `rejected_steps`, `newton_iterations`, `seconds`, `energy_drift` [J], `events` (changes of the mesh, bodies
         at a beam's end, each with its `time` and `kind`), `warnings` (notes too, each its severity, its place and its
         message)."""
-        return {**self._core.report(), "extremes": self._core.extremes()}
+        report = {**self._core.report(), "extremes": self._core.extremes()}
+        collectors = json.loads(self._core.collectors())
+        return {**report, "collectors": collectors} if collectors else report
 
     @property
     def checkpoint(self) -> Checkpoint:

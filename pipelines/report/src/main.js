@@ -6,7 +6,7 @@ import { start_exaggeration } from './exaggeration.js';
 import { modes_of, modes_table, start_modes } from './modes.js';
 import { Player, speeds } from './player.js';
 import { AlongPlot, Plot, plots_of } from './plots.js';
-import { diagnostics_list, energy_table, events_table, evidence_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
+import { collector_tables, diagnostics_list, energy_table, events_table, evidence_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
 import { View } from './view.js';
 
 const $ = (id) => document.getElementById(id);
@@ -310,7 +310,7 @@ function start_along() {
 function fill_tables() {
   const fill = (id, ...parts) => $(id).append(...parts.flat().filter(Boolean));
   fill('model', model_tables(run));
-  fill('extremes', [extremes_table(run, time_unit, (time) => player.go_to_time(time))]);
+  fill('extremes', [...collector_tables(run), extremes_table(run, time_unit, (time) => player.go_to_time(time))]);
   fill('balance', energy_table(data));
   fill('events', events_table(events, (t) => player.go_to_time(t)));
   fill('warnings', diagnostics_list(run?.diagnostics ?? []));

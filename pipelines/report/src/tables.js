@@ -211,6 +211,21 @@ export function extremes_table(run, time_unit, go_to_time) {
       head('at s', 'm'), moving ? head(time_unit ? 'at time' : 'at load', time_unit || '–') : null)), element('tbody', {}, ...rows)));
 }
 
+/** Statistics of contact forces, and what they lift; none of runs without collectors. */
+export function collector_tables(run) {
+  return (run?.collectors ?? []).filter(({ samples }) => samples > 0).flatMap((one) => {
+    const row = (name, { 'frequencies [Hz]': ends, histogram, ...rest }) => ({ [one.name]: name, ...rest });
+    const band = ({ 'frequencies [Hz]': [low, high] }) => `${number(low)} to ${number(high)} Hz`;
+    const lost = one['loss of contact'];
+    return [
+      table_of_columns(`Contact force of ${one.name}`, [row(band(one.force), one.force), row('unfiltered', one['unfiltered force']),
+        ...one.bands.slice(0, 2).map((force) => row(band(force), force))]),
+      element('p', { class: 'note' }, `${one.samples} samples from ${number(one['from [s]'])} to ${number(one['to [s]'])} s. Contact was lost ${number(lost['part of the time [%]'], 3)} % of the time, ${lost.number} times, for ${number(lost['longest [s]'], 3)} s at most.`),
+      table_of(`Uplift by ${one.name}`, in_readable_units(one.uplift)),
+    ];
+  });
+}
+
 /** Events with a button that shows their time. */
 export function events_table(events, go_to_time) {
   if (!events.length) {
