@@ -8,6 +8,7 @@
 #include "pipelines/case/case_file.h"
 #include "pipelines/case/case_schema.h"
 #include "pipelines/case/quantity.h"
+#include "pipelines/command/catenary_entry.h"
 #include "pipelines/command/check.h"
 #include "pipelines/command/compare.h"
 #include "pipelines/command/convert_entries.h"
@@ -350,6 +351,7 @@ const std::vector<Command>& commands() {
                                              verify_entry(become_verify),
                                              bench_entry(become_bench),
                                              study_entry(),
+                                             catenary_entry(),
                                              completion_entry(),
                                              manual_entry()};
   return table;
