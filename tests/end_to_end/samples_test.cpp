@@ -36,6 +36,7 @@ const std::map<std::string, std::vector<std::string>> shortened = {
     {"papers/pendulum_own.json", {"analysis.end_time=0.2"}},
     {"papers/pendulum_extreme.json", {"analysis.end_time=0.2"}},
     {"roller_coaster/roller_coaster.json", {"analysis.end_time=0.2"}},
+    {"en50318/en50318.json", {"analysis.end_time=0.05"}},
     {"rail/rail.json", {"analysis.end_time=0.05", "output.cad=null"}},
 };
 
