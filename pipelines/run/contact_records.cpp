@@ -97,13 +97,13 @@ std::vector<Diagnostic> contact_warnings(const std::filesystem::path& file,
       warnings.push_back({Severity::warning, where,
                           "has not been between " + text_of(outcome.from) + " and " + text_of(outcome.to) +
                               " m, its \"evaluate\": there are no statistics"});
-    else if (found.missing_before > 0 || found.missing_after > 0)
+    else if (const double missing = std::max(found.missing_before, found.missing_after); missing > 0)
       warnings.push_back(
           {Severity::warning, where,
-           "comes to its \"evaluate\" " + text_of(found.missing_before, 3) + " s too early, or leaves it " +
-               text_of(found.missing_after, 3) +
-               " s too late, for the filters: they need as long as the period of their lowest frequency "
-               "before and after; begin earlier, end later, or take a smaller window"});
+           (found.missing_before > 0 ? "starts " : "ends ") + text_of(missing, 3) +
+               " s too near to its \"evaluate\" for the filters, which need the period of their "
+               "lowest frequency before and after it: begin earlier, end later, or take a smaller "
+               "window"});
   }
   return warnings;
 }

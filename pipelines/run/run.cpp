@@ -319,8 +319,9 @@ class Run {
     std::vector<Diagnostic> warnings = run_warnings(case_, built_, simulated, outputs.checks());
     if (summary_.modes)
       if (const auto note = fewer_modes_note(case_, *summary_.modes)) warnings.push_back(*note);
-    for (Diagnostic& warning : contact_warnings(case_.path, summary_.collectors))
-      warnings.push_back(std::move(warning));
+    if (case_.analysis.type == CaseAnalysis::Type::dynamic)
+      for (Diagnostic& warning : contact_warnings(case_.path, summary_.collectors))
+        warnings.push_back(std::move(warning));
     messages_.findings(warnings);
     print_diagnostics(*log_, warnings);
     summary_.diagnostics.insert(summary_.diagnostics.end(), warnings.begin(), warnings.end());
