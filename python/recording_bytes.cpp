@@ -63,7 +63,9 @@ Recording recording_from(const std::string& bytes) {
   return {.title = reader.title(),
           .names = reader.names(),
           .frames = {std::move_iterator(frames.begin()), std::move_iterator(frames.end())},
-          .modes = {}};
+          .modes = {},
+          .row_times = {},
+          .row_values = {}};
 }
 
 }  // namespace nurbeam::python
