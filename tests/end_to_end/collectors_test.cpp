@@ -9,7 +9,7 @@
 
 #include "tests/end_to_end/case_run.h"
 
-namespace nurbeam {
+namespace nurbeam::collectors_test {
 namespace {
 
 using std::numbers::pi;
@@ -158,4 +158,4 @@ TEST(Collectors, RefuseWhatMeansNothing) {
 }
 
 }  // namespace
-}  // namespace nurbeam
+}  // namespace nurbeam::collectors_test

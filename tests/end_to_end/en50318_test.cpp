@@ -6,7 +6,7 @@
 
 #include "tests/end_to_end/case_run.h"
 
-namespace nurbeam {
+namespace nurbeam::en50318_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -60,23 +60,23 @@ void expect_accepted(const Json& collector, const Accepted& ranges) {
 
 TEST(En50318, IsMetAt250KilometresAnHour) {
   expect_accepted(collector_at("\"250 km/h\"", "5.184"), {.mean = {110, 120},
-                                                         .deviation = {26, 31},
-                                                         .mean_and_three = {190, 210},
-                                                         .mean_less_three = {20, 40},
-                                                         .greatest = {175, 210},
-                                                         .least = {50, 75},
-                                                         .uplift = {48, 55}});
+                                                          .deviation = {26, 31},
+                                                          .mean_and_three = {190, 210},
+                                                          .mean_less_three = {20, 40},
+                                                          .greatest = {175, 210},
+                                                          .least = {50, 75},
+                                                          .uplift = {48, 55}});
 }
 
 TEST(En50318, IsMetAt300KilometresAnHour) {
   expect_accepted(collector_at("\"300 km/h\"", "4.32"), {.mean = {110, 120},
-                                                        .deviation = {32, 40},
-                                                        .mean_and_three = {210, 230},
-                                                        .mean_less_three = {-5, 20},
-                                                        .greatest = {190, 225},
-                                                        .least = {30, 55},
-                                                        .uplift = {55, 65}});
+                                                         .deviation = {32, 40},
+                                                         .mean_and_three = {210, 230},
+                                                         .mean_less_three = {-5, 20},
+                                                         .greatest = {190, 225},
+                                                         .least = {30, 55},
+                                                         .uplift = {55, 65}});
 }
 
 }  // namespace
-}  // namespace nurbeam
+}  // namespace nurbeam::en50318_test

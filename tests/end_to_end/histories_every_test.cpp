@@ -5,7 +5,7 @@
 
 #include "tests/end_to_end/case_run.h"
 
-namespace nurbeam {
+namespace nurbeam::histories_every_test {
 namespace {
 
 using test::CaseRun;
@@ -79,4 +79,4 @@ TEST(HistoriesEvery, RefusesMoreRowsThanStepsThereMayBe) {
 }
 
 }  // namespace
-}  // namespace nurbeam
+}  // namespace nurbeam::histories_every_test

@@ -53,7 +53,8 @@ def test_results_of_a_directory_have_the_same_rows(tmp_path):
 
 def test_rows_may_be_asked_for_without_collectors():
     model = nb.Model()
-    rod = model.add_beam([[0, 0, 0], [1, 0, 0]], nb.Circle(radius=0.005), nb.Material(density=7800, youngs_modulus=2e11), elements=4)
+    steel = nb.Material(density=7800, youngs_modulus=2e11)
+    rod = model.add_beam([[0, 0, 0], [1, 0, 0]], nb.Circle(radius=0.005), steel, elements=4)
     model.add_support(rod, "start", "clamped")
     model.case["output"] = {"histories_every": "2 ms"}
     results = model.run(end_time=0.02, step=1e-3, every=0.01)

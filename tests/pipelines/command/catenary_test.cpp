@@ -15,7 +15,7 @@
 #include "pipelines/model/build_model.h"
 #include "tests/pipelines/case_text.h"
 
-namespace nurbeam {
+namespace nurbeam::catenary_test {
 namespace {
 
 struct Written {
@@ -113,4 +113,4 @@ TEST(Catenary, RefusesDataThatAreNone) {
 }
 
 }  // namespace
-}  // namespace nurbeam
+}  // namespace nurbeam::catenary_test

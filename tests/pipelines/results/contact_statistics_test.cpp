@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace nurbeam {
+namespace nurbeam::contact_statistics_test {
 namespace {
 
 // NumPy: mean, std, min, max, quantile and histogram(f, 20) of the same numbers.
@@ -95,4 +95,4 @@ TEST(ContactStatistics, TakeUnevenTimesAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace nurbeam
+}  // namespace nurbeam::contact_statistics_test

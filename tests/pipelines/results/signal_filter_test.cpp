@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-namespace nurbeam {
+namespace nurbeam::signal_filter_test {
 namespace {
 
 using std::numbers::pi;
@@ -72,4 +72,4 @@ TEST(SignalFilter, LeavesAConstantAndAShortSignal) {
 }
 
 }  // namespace
-}  // namespace nurbeam
+}  // namespace nurbeam::signal_filter_test
