@@ -37,7 +37,8 @@ std::vector<ContactSample> even(const std::vector<ContactSample>& series) {
 // The filter that leaves these frequencies; none where it leaves all.
 std::vector<FilterSection> filter_of(double low, double high, double rate) {
   const bool cuts_high = high < rate / 2;
-  if (low <= 0) return cuts_high ? butterworth_low_pass(filter_order, high, rate) : std::vector<FilterSection>{};
+  if (low <= 0)
+    return cuts_high ? butterworth_low_pass(filter_order, high, rate) : std::vector<FilterSection>{};
   constexpr double nearly = 0.999;
   return butterworth_band_pass(filter_order, low, cuts_high ? high : nearly * rate / 2, rate);
 }
