@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <string>
 
+#include "pipelines/case/case_file.h"
+#include "pipelines/run/run.h"
 #include "tests/end_to_end/case_run.h"
 
 namespace nurbeam::collectors_test {
@@ -132,6 +138,37 @@ TEST(Collectors, AreLiftedByTheirSpeed) {
   EXPECT_NEAR(run.last("pan.force [N]"), (100 + 0.05 * 400) / (1 + 50 * (1 / 4200.0 + 1 / 50e3)), 0.05);
   EXPECT_NEAR(run.last("other.force [N]"), 80, 1e-6);
   EXPECT_NEAR(run.last("other.mass_1.x [m]"), 100, 1e-6);
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// In the middle of the window a run is interrupted, and goes on.
+TEST(Collectors, HaveTheStatisticsOfAnUnbrokenRun) {
+  const test::TemporaryDirectory directory;
+  const auto file = directory.write("case.json", wavy_guide(0.003, 10, 50, "2", R"(, "evaluate": [20, 80])"));
+  const CaseFileReport report = read_case_file(file);
+  ASSERT_TRUE(report.value);
+  const auto run = [&](const char* out, bool resume, long most_steps) {
+    long asked = 0;
+    std::ostringstream messages;
+    RunOptions options{.out = directory.path() / out, .quiet = true, .resume = resume, .messages = &messages};
+    options.interrupted = [&] { return ++asked > most_steps; };
+    return run_case(*report.value, options);
+  };
+  constexpr long all = 1'000'000;
+  EXPECT_EQ(run("whole", false, all), 0);
+  EXPECT_EQ(run("cut", false, 900), 130);
+  EXPECT_EQ(run("cut", true, all), 0);
+  const auto outcome = [&](const char* out) {
+    return nlohmann::json::parse(content_of(directory.path() / out / "run.json")).at("collectors");
+  };
+  EXPECT_GT(outcome("whole").at(0).at("samples"), 1000);
+  EXPECT_EQ(outcome("cut"), outcome("whole"));
+  EXPECT_EQ(content_of(directory.path() / "cut" / "histories.csv"),
+            content_of(directory.path() / "whole" / "histories.csv"));
 }
 
 TEST(Collectors, RefuseWhatMeansNothing) {
