@@ -12,10 +12,10 @@ namespace nurbeam {
 
 namespace {
 
-std::string number(double value) { return text_of(value, 12); }
+std::string text_of_number(double value) { return text_of(value, 12); }
 
-std::string list(const Eigen::Vector3d& p) {
-  return "[" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + "]";
+std::string text_of_point(const Eigen::Vector3d& p) {
+  return "[" + text_of_number(p.x()) + ", " + text_of_number(p.y()) + ", " + text_of_number(p.z()) + "]";
 }
 
 // The items of an array, one a line.
@@ -39,8 +39,8 @@ bool is_straight(const CatenaryData& data) { return data.pre_sag == 0 && data.st
 
 // Where a wire is held, as a place of its beam.
 std::string place(const Eigen::Vector3d& point, bool straight) {
-  if (straight) return "{ \"length\": " + number(point.x()) + " }";
-  return "{ \"near\": " + list(point) + ", \"within\": 0.1 }";
+  if (straight) return "{ \"length\": " + text_of_number(point.x()) + " }";
+  return "{ \"near\": " + text_of_point(point) + ", \"within\": 0.1 }";
 }
 
 std::vector<double> masts_and_droppers(const CatenaryData& data) {
@@ -69,21 +69,21 @@ std::string axis(const std::vector<Eigen::Vector3d>& points) {
   constexpr int a_line = 5;
   std::string text = points.size() > 2 ? "{ \"through\": [" : "{ \"polyline\": [";
   for (std::size_t i = 0; i < points.size(); ++i)
-    text += (i == 0 ? "" : i % a_line == 0 ? ",\n        " : ", ") + list(points[i]);
+    text += (i == 0 ? "" : i % a_line == 0 ? ",\n        " : ", ") + text_of_point(points[i]);
   return text + "] }";
 }
 
 std::string beam(const CatenaryData& data, const char* name, const CatenaryWire& wire,
                  const std::vector<Eigen::Vector3d>& points) {
   return std::string("{ \"name\": \"") + name + "\", \"axis\": " + axis(points) +
-         ",\n      \"stress_free\": \"straight\", \"tension\": " + number(wire.tension) +
-         ",\n      \"section\": { \"area\": " + number(wire.area) +
-         ", \"second_moment\": " + number(wire.second_moment) +
-         " },\n      \"material\": { \"density\": " + number(wire.density) +
-         ", \"youngs_modulus\": " + number(wire.modulus) +
-         ", \"mass_damping\": " + number(data.mass_damping) +
-         ", \"stiffness_damping\": " + number(data.stiffness_damping) +
-         " },\n      \"elements\": { \"max_length\": " + number(data.element) + " } }";
+         ",\n      \"stress_free\": \"straight\", \"tension\": " + text_of_number(wire.tension) +
+         ",\n      \"section\": { \"area\": " + text_of_number(wire.area) +
+         ", \"second_moment\": " + text_of_number(wire.second_moment) +
+         " },\n      \"material\": { \"density\": " + text_of_number(wire.density) +
+         ", \"youngs_modulus\": " + text_of_number(wire.modulus) +
+         ", \"mass_damping\": " + text_of_number(data.mass_damping) +
+         ", \"stiffness_damping\": " + text_of_number(data.stiffness_damping) +
+         " },\n      \"elements\": { \"max_length\": " + text_of_number(data.element) + " } }";
 }
 
 void write_beams(const CatenaryData& data, std::ostream& out) {
@@ -100,7 +100,7 @@ void write_supports(const CatenaryData& data, std::ostream& out) {
     const std::string begin = "{ \"beam\": \"" + beam + "\", \"at\": ";
     lines.add(begin + "\"start\", \"type\": \"pinned\", \"name\": \"" + beam + " anchor\" }");
     lines.add(begin + "\"end\", \"type\": \"guided\", \"direction\": [1, 0, 0], \"force\": " +
-              number(tension) + ", \"name\": \"" + beam + " weight\" }");
+              text_of_number(tension) + ", \"name\": \"" + beam + " weight\" }");
   }
   const std::vector<double> masts = data.masts();
   for (std::size_t i = 1; i + 1 < masts.size(); ++i)
@@ -121,21 +121,22 @@ void add_arms(const CatenaryData& data, Lines& lines) {
                           mast = wire + Eigen::Vector3d(0, std::copysign(*data.arm, wire.y()), 0);
     lines.add("{ \"name\": \"arm " + std::to_string(i + 1) + "\", \"type\": \"rod\", " +
               end_of("from", "contact wire", wire, is_straight(data)) +
-              ", \"to\": { \"point\": " + list(mast) + " }" +
-              (data.arm_mass > 0 ? ", \"end_masses\": [" + number(data.arm_mass) + ", 0]" : "") + " }");
+              ", \"to\": { \"point\": " + text_of_point(mast) + " }" +
+              (data.arm_mass > 0 ? ", \"end_masses\": [" + text_of_number(data.arm_mass) + ", 0]" : "") +
+              " }");
   }
 }
 
 void write_connectors(const CatenaryData& data, std::ostream& out) {
   Lines lines(out, "connectors");
-  const std::string masses = number(data.clamp_mass);
+  const std::string masses = text_of_number(data.clamp_mass);
   for (std::size_t span = 0; span < data.spans.size(); ++span) {
     const std::vector<double> places = data.droppers_of(span);
     for (std::size_t i = 0; i < places.size(); ++i)
       lines.add("{ \"name\": \"dropper " + std::to_string(span + 1) + "." + std::to_string(i + 1) +
-                "\", \"type\": \"tension-only\", \"stiffness\": " + number(data.dropper_stiffness) +
+                "\", \"type\": \"tension-only\", \"stiffness\": " + text_of_number(data.dropper_stiffness) +
                 ", \"length\": " +
-                (data.dropper_lengths.empty() ? "\"as-drawn\"" : number(data.dropper_lengths[i])) +
+                (data.dropper_lengths.empty() ? "\"as-drawn\"" : text_of_number(data.dropper_lengths[i])) +
                 (data.clamp_mass > 0 ? ", \"end_masses\": [" + masses + ", " + masses + "]" : "") +
                 ",\n      " + end_of("from", "contact wire", data.contact_at(places[i]), is_straight(data)) +
                 ", " + end_of("to", "messenger", data.messenger_at(places[i]), false) + " }");
@@ -149,7 +150,7 @@ void write_loads(const CatenaryData& data, std::ostream& out) {
   Lines lines(out, "loads");
   for (std::size_t i = 1; i + 1 < masts.size(); ++i)
     lines.add("{ \"beam\": \"contact wire\", \"at\": " + place(data.contact_at(masts[i]), is_straight(data)) +
-              ", \"force\": " + list({0, 0, data.lift_at(i)}) + " }");
+              ", \"force\": " + text_of_point({0, 0, data.lift_at(i)}) + " }");
 }
 
 // Two spans in the middle, before which there are three at least where there are so many.
@@ -159,7 +160,7 @@ std::pair<double, double> evaluated(const CatenaryData& data) {
   return {masts[middle > 0 ? middle - 1 : 0], masts[std::min(middle + 1, data.spans.size())]};
 }
 
-std::string probe_at(double x) { return "contact wire at " + number(x) + " m"; }
+std::string probe_at(double x) { return "contact wire at " + text_of_number(x) + " m"; }
 
 // That of EN 50318:2002.
 void write_pantograph(const CatenaryData& data, std::ostream& out) {
@@ -170,14 +171,14 @@ void write_pantograph(const CatenaryData& data, std::ostream& out) {
     if (x >= from && x <= to && x > 0 && x < data.length())
       uplift += (uplift.empty() ? "\"" : ", \"") + probe_at(x) + "\"";
   Lines lines(out, "collectors");
-  lines.add(
-      "{ \"name\": \"pantograph\", \"beam\": \"contact wire\", \"at\": " +
-      place(data.contact_at(masts[1] / 2), is_straight(data)) +
-      ",\n      \"travel\": [1, 0, 0], \"up\": [0, 0, 1], \"motion\": { \"speed\": " + number(*data.speed) +
-      " },\n      \"masses\": [15, 7.2], \"stiffness\": [50, 4200], \"damping\": [90, 10], "
-      "\"contact\": { \"stiffness\": 50000 },\n      \"force\": 120, \"force_on\": 2, \"evaluate\": [" +
-      number(from) + ", " + number(to) + "], \"bands\": [[0, 5], [5, 20]],\n      \"uplift\": [" + uplift +
-      "] }");
+  lines.add("{ \"name\": \"pantograph\", \"beam\": \"contact wire\", \"at\": " +
+            place(data.contact_at(masts[1] / 2), is_straight(data)) +
+            ",\n      \"travel\": [1, 0, 0], \"up\": [0, 0, 1], \"motion\": { \"speed\": " +
+            text_of_number(*data.speed) +
+            " },\n      \"masses\": [15, 7.2], \"stiffness\": [50, 4200], \"damping\": [90, 10], "
+            "\"contact\": { \"stiffness\": 50000 },\n      \"force\": 120, \"force_on\": 2, \"evaluate\": [" +
+            text_of_number(from) + ", " + text_of_number(to) +
+            "], \"bands\": [[0, 5], [5, 20]],\n      \"uplift\": [" + uplift + "] }");
 }
 
 void write_rest(const CatenaryData& data, std::ostream& out) {
@@ -191,7 +192,7 @@ void write_rest(const CatenaryData& data, std::ostream& out) {
   const auto behind = std::ranges::upper_bound(masts, to);
   const double last = behind == masts.end() ? to - 1 : (to + *behind) / 2;
   out << "  \"analysis\": { \"initial\": \"equilibrium\", \"end_time\": "
-      << number((last - masts[1] / 2) / *data.speed) << ", \"step\": 0.001 },\n"
+      << text_of_number((last - masts[1] / 2) / *data.speed) << ", \"step\": 0.001 },\n"
       << "  \"output\": { \"every\": 0.05, \"probes\": [";
   bool first = true;
   for (const double x : masts) {
@@ -296,8 +297,9 @@ void check(const CatenaryData& data) {
 }
 
 void write_case(const CatenaryData& data, const std::string& name, std::ostream& out) {
-  out << "{\n  // Made by `nurbeam catenary`: " << data.spans.size() << " spans, " << number(data.length())
-      << " m, along x.\n  \"nurbeam\": 1,\n  \"name\": \"" << name << "\",\n";
+  out << "{\n  // Made by `nurbeam catenary`: " << data.spans.size() << " spans, "
+      << text_of_number(data.length()) << " m, along x.\n  \"nurbeam\": 1,\n  \"name\": \"" << name
+      << "\",\n";
   write_beams(data, out);
   write_supports(data, out);
   write_connectors(data, out);
