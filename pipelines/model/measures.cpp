@@ -13,13 +13,17 @@ namespace nurbeam {
 
 namespace {
 
-bool is_ring_in_space(const BeamModel& model, const Rider& rider) {
-  return std::any_of(
-      model.constraints.begin(), model.constraints.end(),
+template <class Holder>
+bool is_held_by(const BeamModel& model, const Rider& rider) {
+  return std::ranges::any_of(
+      model.constraints,
       [&](const Constraint& each) {
-        const auto* held = std::get_if<HeldBody>(&each);
-        return held && held->body == rider.body;
+        const auto* holder = std::get_if<Holder>(&each);
+        return holder && holder->body == rider.body;
       });
+}
+bool is_ring_in_space(const BeamModel& model, const Rider& rider) {
+  return is_held_by<HeldBody>(model, rider);
 }
 
 // Where supports and eyelets hold a beam, in order.
@@ -110,7 +114,8 @@ void add_clearance(const ResolvedCase& resolved, const CaseClearance& clearance,
 void add_rings(BeamModel& model) {
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
     const Rider& rider = model.riders[j];
-    if (model.body_of(rider).mass != 0) continue;
+    const bool is_ring = is_ring_in_space(model, rider) || is_held_by<CarriedBody>(model, rider);
+    if (!is_ring || model.body_of(rider).mass != 0) continue;
     for (const RingQuantity& of : ring_quantities)
       if (rider.reel.has_value() == of_reel(of.quantity))
         model.measures.push_back(AtRing{model.body_of(rider).name + "." + of.name, j, of.quantity});
