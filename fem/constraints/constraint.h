@@ -24,10 +24,10 @@ namespace nurbeam {
 
 /// The kinds of constraints in either dimension, and `Others` besides.
 template <int D, class... Others>
-using ConstraintList =
-    std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
-                 BodyOnGuide<D>, BodyOnNode<D>, KeptContact<D>, JoinedPoints<D>, JoinedSlopes<D>,
-                 CornerAngle<D>, KeptLength<D>, HeldPositionOfBody<D>, BodyOnBody<D>, HeldSlope<D>, Others...>;
+using ConstraintList = std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirection<D>, HeldPlace<D>,
+                                    BodyOnPoint<D>, BodyOnGuide<D>, BodyOnNode<D>, KeptContact<D>,
+                                    JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>, KeptLength<D>,
+                                    HeldPositionOfBody<D>, BodyOnBody<D>, HeldSlope<D>, Others...>;
 template <int D>
 using BoundConstraint =
     std::conditional_t<D == 3,

@@ -31,8 +31,8 @@ struct CurvePoint {
   Eigen::Vector3d position, tangent, curvature;  ///< [m], [-], [1/m]
 };
 
-/// The drawn, undeformed curve as a function of reference arc length s in [start, end]; immutable. The start is
-/// 0, but for a curve that was lengthened there.
+/// The drawn, undeformed curve as a function of reference arc length s in [start, end]; immutable. The start
+/// is 0, but for a curve that was lengthened there.
 ///
 /// The curve is a chain of segments (rational cubics). Segment j covers [breaks()[j], breaks()[j+1]] and has
 /// its own parameter u in [0,1]. In a planar model (dimension 2) coordinates are the plane's, and kappa_0 is

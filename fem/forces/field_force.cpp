@@ -93,7 +93,9 @@ void FieldOnBeams<D>::add_energy(const MeshedBeams<D>& at, const State& state, S
   for (const MeshElement<D>& e : at.elements)
     for_each_point<D>(
         e, state, gather<D>(e, state),
-        [&](const FieldPoint<D>& p, double, double) { sum.gravity += p.mass * at.structure.field->potential(p.position); });
+        [&](const FieldPoint<D>& p, double, double) {
+          sum.gravity += p.mass * at.structure.field->potential(p.position);
+        });
 }
 
 template class FieldOnBeams<2>;

@@ -33,12 +33,11 @@ struct FrictionOfBody {
 /// Let l = (|left| + |right|)/2, m the bisector of the tangents, theta the angle between them, and
 /// F_n = |force - m m.force|. Then Q = l F.
 /// While the body sticks, F = -k z* - (d + c) l rate with z* = z + l (s - s_n); it sticks as long as
-/// |k z* + d l rate| <= B. While it slides, F = -+B - c l rate. A quadratic resistance adds -c_2 (l rate)|l rate|
-/// to both.
-/// The bound is B = phi N + F_c. By Coulomb's law N = F_n and phi = mu / cos(theta/2). By the capstan's law N
-/// is the whole force R = T2 t2 - T1 t1, and T2/T1 = exp(mu theta) gives phi = tau / sqrt(sin^2(theta/2) +
-/// tau^2 cos^2(theta/2)) with tau = tanh(mu theta/2), for every angle. A bearing has N = R and phi = mu. For
-/// N stands sqrt(N^2 + e^2) - e, where e is the least force.
+/// |k z* + d l rate| <= B. While it slides, F = -+B - c l rate. A quadratic resistance adds -c_2 (l rate)|l
+/// rate| to both. The bound is B = phi N + F_c. By Coulomb's law N = F_n and phi = mu / cos(theta/2). By the
+/// capstan's law N is the whole force R = T2 t2 - T1 t1, and T2/T1 = exp(mu theta) gives phi = tau /
+/// sqrt(sin^2(theta/2) + tau^2 cos^2(theta/2)) with tau = tanh(mu theta/2), for every angle. A bearing has N
+/// = R and phi = mu. For N stands sqrt(N^2 + e^2) - e, where e is the least force.
 struct FrictionForce {
   double along;           ///< F, the jump of the beam's tension, positive towards its end [N]
   double value;           ///< Q [N]

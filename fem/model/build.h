@@ -61,8 +61,8 @@ class ModelBuilder {
   /// Leads a beam through an eyelet on a body that no rider places: a pulley, where the body is.
   Rider& lead_through(std::string name, int body, int beam, double s);
 
-  /// Puts the part of a beam before a place, or else behind it, on a reel that stands where the beam is drawn at
-  /// the place. Returns the rider that is the mouth of the reel, so that its settings can be changed.
+  /// Puts the part of a beam before a place, or else behind it, on a reel that stands where the beam is drawn
+  /// at the place. Returns the rider that is the mouth of the reel, so that its settings can be changed.
   Rider& wind_up(std::string name, int beam, double s, bool at_start);
 
   /// Connects two ends with a connector as long as drawn; bodies must have their riders before. Returns the

@@ -162,8 +162,7 @@ void add_measures(const SnapshotNames& names, Columns& columns) {
   for (std::size_t i = 0; i < names.measures.size(); ++i) {
     const auto& [name, quantity] = parts_of_measure(names.measures[i]);
     columns.of("measure", i, name);
-    columns.add(quantity, unit_of_measure(quantity),
-                [i](const Snapshot& f) { return f.measures[i].value; });
+    columns.add(quantity, unit_of_measure(quantity), [i](const Snapshot& f) { return f.measures[i].value; });
   }
 }
 

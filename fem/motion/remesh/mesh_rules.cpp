@@ -110,8 +110,9 @@ class RiderRules {
     const int h = beam_.home_interval(s_);
     watch(at(h));
     watch(at(h + 1));
-    if (node_count_ > 0 && std::any_of(nodes_.begin(), nodes_.begin() + node_count_,
-                                  [&](const Node& node) { return node.rider >= 0 && node.rider != joint_; }))
+    if (node_count_ > 0 && std::any_of(nodes_.begin(), nodes_.begin() + node_count_, [&](const Node& node) {
+          return node.rider >= 0 && node.rider != joint_;
+        }))
       watch_closely();
   }
   void watch(double place) {
