@@ -190,8 +190,12 @@ DimensionAtPath dimension_at(const std::string& path) {
     const std::string &part = parts[i], here = walked.empty() ? "the case file" : walked;
     const Shape* holder = shape;
     if (shape->kind == Kind::either)
-      for (const Shape& item : shape->items)
-        if (item.kind == Kind::object || item.kind == Kind::array || item.kind == Kind::table) holder = &item;
+      for (const Shape& item : shape->items) {
+        const bool has_parts = item.kind == Kind::array || item.kind == Kind::table ||
+                               (item.kind == Kind::vector && as_index(part));
+        const bool has_keys = item.kind == Kind::object && holder->kind != Kind::vector;
+        if (has_parts || has_keys) holder = &item;
+      }
     if (holder->kind == Kind::array) {
       walked += "[" + part + "]";
       shape = &holder->items[0];
