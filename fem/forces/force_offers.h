@@ -15,9 +15,11 @@ struct ForceOffers {
   /// which hands matrices to sink.element(index, K), for an element with torsion to sink.twist(index, K), or
   /// for its own dofs() to sink.own(K).
   bool force = false;
-  bool per_length = false;         ///< (per_length(beam, t)) load that the elements carry
-  bool energy = false;             ///< (add_energy(at, state, sum))
-  bool momentum = false;           ///< (momentum(state))
+  bool per_length = false;  ///< (per_length(beam, t)) load that the elements carry
+  bool energy = false;      ///< (add_energy(at, state, sum))
+  bool momentum = false;    ///< (momentum(state))
+  /// (add_momentum_in(mesh, state, p)) its generalised momentum, which a change of the mesh carries over
+  bool carried_momentum = false;
   bool momentum_at_place = false;  ///< (add_momentum_of(velocity, p)), at a place s() of a beam()
   /// (spin(at, state)) spin of the body of a rider(), with (add_momentum(at, state, spin, p)).
   bool roll = false;
@@ -46,6 +48,7 @@ NURBEAM_HOOK(add_tangent);
 NURBEAM_HOOK(add_energy);
 NURBEAM_HOOK(momentum);
 NURBEAM_HOOK(add_momentum_of);
+NURBEAM_HOOK(add_momentum_in);
 NURBEAM_HOOK(spin);
 NURBEAM_HOOK(add_momentum);
 NURBEAM_HOOK(loss);
@@ -120,6 +123,9 @@ consteval bool keeps_offers() {
     int(f.beam());
     double(f.s());
   };
+  constexpr bool has_carried = requires(const F& f, const Mesh& mesh, const State& x, Eigen::VectorXd& p) {
+    f.add_momentum_in(mesh, x, p);
+  };
   constexpr bool has_roll =
       requires(const F& f, const MeshedBeams<D>& at, const State& x, Eigen::VectorXd& p) {
     int(f.rider());
@@ -144,6 +150,7 @@ consteval bool keeps_offers() {
          keeps_word(o.actions, names_add_actions<F>, has_actions) &&
          keeps_word(o.on_body, names_on_body<F>, has_on_body) &&
          keeps_word(o.on_element, names_on_element<F>, has_on_element) &&
+         keeps_word(o.carried_momentum, names_add_momentum_in<F>, has_carried) &&
          keeps_word(o.momentum, names_momentum<F>, has_momentum) &&
          keeps_word(o.momentum_at_place, names_add_momentum_of<F>, has_place) &&
          keeps_word(o.roll, names_spin<F>, has_roll) && keeps_word(o.roll, names_add_momentum<F>, has_roll) &&

@@ -13,11 +13,12 @@ template <int D>
 class PlaceDrive {
  public:
   static constexpr ForceOffers offers{
-      .force = true, .energy = true, .work = true, .has_constant_inertia = true};
+      .force = true, .energy = true, .carried_momentum = true, .work = true, .has_constant_inertia = true};
 
   PlaceDrive(const MeshedBeams<D>& at, int rider)
       : inertia_(at.structure.riders[rider].turning_inertia),
         force_(&at.structure.riders[rider].drive_force),
+        rider_(rider),
         dofs_{at.mesh.riders[rider].place} {}
 
   /// Binds the drives of all riders that are on their beams.
@@ -43,6 +44,11 @@ class PlaceDrive {
   void add_energy(const MeshedBeams<D>&, const State& state, SystemEnergy& sum) const {
     sum.kinetic += inertia_ * state.v[dofs_[0]] * state.v[dofs_[0]] / 2;
   }
+  /// Adds the momentum of what turns to that of another mesh.
+  void add_momentum_in(const Mesh& mesh, const State& state, Eigen::Ref<Eigen::VectorXd> p) const {
+    const int place = mesh.riders[rider_].place;
+    if (place >= 0) p[place] += inertia_ * state.v[dofs_[0]];
+  }
   /// Work between two states on one mesh [J]: the mean force over the way.
   double work(const MeshedBeams<D>&, const State& from, const State& to) const {
     return (from.load * force(from.t) + to.load * force(to.t)) / 2 * (to.q[dofs_[0]] - from.q[dofs_[0]]);
@@ -53,6 +59,7 @@ class PlaceDrive {
 
   double inertia_;
   const TimeTable* force_;
+  int rider_;
   std::vector<int> dofs_;
 };
 

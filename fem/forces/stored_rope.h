@@ -17,8 +17,12 @@ namespace nurbeam {
 template <int D>
 class StoredRope {
  public:
-  static constexpr ForceOffers offers{
-      .force = true, .energy = true, .momentum = true, .loss = true, .on_body = true};
+  static constexpr ForceOffers offers{.force = true,
+                                      .energy = true,
+                                      .momentum = true,
+                                      .carried_momentum = true,
+                                      .loss = true,
+                                      .on_body = true};
   using Vector = Eigen::Matrix<double, D, 1>;
 
   StoredRope(const MeshedBeams<D>& at, int rider);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "fem/mesh/widened.h"
@@ -187,15 +186,10 @@ void CarriedMomentum::carry(const BeamSystem& from, const State& state) {
   for (std::size_t body = 0; body < bodies_.velocities.size(); ++body)
     kept_.segment<D>(to_->mesh().bodies[body]) +=
         to_->model().bodies[body].mass * bodies_.velocities[body].head<D>();
-  for (std::size_t j = 0; j < to_->model().riders.size(); ++j) {
-    const int place = to_->mesh().riders[j].place, before = from.mesh().riders[j].place;
-    if (place >= 0 && before >= 0) kept_[place] += to_->model().riders[j].turning_inertia * state.v[before];
-  }
   for (const BoundForce<D>& force : old.forces())
     std::visit(
         [&](const auto& f) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(f)>, StoredRope<D>>)
-            f.add_momentum_in(to_->mesh(), state, kept_);
+          if constexpr (offers_of<decltype(f)>.carried_momentum) f.add_momentum_in(to_->mesh(), state, kept_);
         },
         force);
   for (const BoundForce<D>& force : own.forces())
