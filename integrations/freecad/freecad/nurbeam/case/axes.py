@@ -1,7 +1,7 @@
 """The axis and the pipe of a beam."""
 
 from ..geometry import places, wires
-from ..run.pipes import pipe_of_solid
+from ..run.pipes import pipe_of_body
 
 
 class Axis:
@@ -18,9 +18,9 @@ class Axis:
 def axis_of(beam):
     """The axis of a beam. ValueError, with the reason, where nothing of use is chosen."""
     if not beam.Axis:
-        raise wires.BrokenWire("no axis is chosen; choose edges, a wire, a sketch, or a solid pipe")
-    if places.is_solid(beam.Axis):
-        pipe = pipe_of_solid(places.shapes_of_link(beam.Axis)[0])
+        raise wires.BrokenWire("no axis is chosen; choose edges, a wire, a sketch, or a pipe")
+    if places.has_body(beam.Axis):
+        pipe = pipe_of_body(places.body_of_link(beam.Axis))
         axis = Axis(pipe.nurbs, radius=pipe.radius, bore=pipe.bore)
     else:
         axis = Axis(*wires.nurbs_of_edges(places.edges_of_link(beam.Axis)))

@@ -58,16 +58,16 @@ class NewAnalysis(NewPart):
 
 class NewBeam(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Beam", "Beam", "beam", objects.Beam
-    HELP = "A beam along the selected edges, wire or sketch, or a selected solid pipe"
+    HELP = "A beam along the selected edges, wire or sketch, or of a selected pipe"
 
     def fill(self, obj, analysis, link, selected):
         obj.Material = first_material(obj.Document)
         if not link:
             return
-        obj.Axis = link
         obj.Label = f"Beam {link[0].Label}"
         try:
-            if places.is_solid(link):
+            obj.Axis = link = places.whole_bodies(link)
+            if places.has_body(link):
                 obj.SectionKind = "Of the pipe"
         except (places.NoPlace, ValueError):
             pass  # the recompute says so at the object
@@ -125,7 +125,7 @@ class NewProbe(NewPart):
 
 class NewCable(Command):
     NAME, TITLE, ICON = "Nurbeam_CableOfLength", "Cable of given length", "cable"
-    HELP = "A cable between two selected faces, circles or ends of edges, of a given length, slack or bend radius"
+    HELP = "A cable between two selected faces, circles, coordinate systems or ends of edges, of a given length, slack or bend radius"
 
     def Activated(self):
         document = FreeCAD.ActiveDocument
@@ -142,4 +142,4 @@ class NewCable(Command):
 def _ends_of_selection():
     """The first two elements that are selected, each as a link."""
     chosen = FreeCADGui.Selection.getSelectionEx("", 0)
-    return [(each.Object, [name]) for each in chosen for name in each.SubElementNames if name][:2]
+    return [(each.Object, [name]) for each in chosen for name in each.SubElementNames or ("",)][:2]

@@ -6,6 +6,10 @@ import FreeCAD
 import Part
 
 
+PLANE = "Part::GeomPlane"
+AXES = {"X": FreeCAD.Vector(1, 0, 0), "Y": FreeCAD.Vector(0, 1, 0), "Z": FreeCAD.Vector(0, 0, 1)}
+
+
 class NoPlace(ValueError):
     """A link that leads nowhere, or to something of another kind; the text says which would do."""
 
@@ -45,10 +49,38 @@ def edges_of_link(link):
     return [edge for shape in shapes_of_link(link) for edge in shape.Edges]
 
 
-def is_solid(link):
-    """Whether the link names one solid as a whole, as a pipe is one."""
+def has_body(link):
+    """Whether the link names a solid or curved faces, as those of a pipe; the faces of closed lines are plane."""
+    faces = [(shape, face) for shape in shapes_of_link(link) for face in shape.Faces]
+    return any(shape.Solids or face.Surface.TypeId != PLANE for shape, face in faces)
+
+
+def body_of_link(link):
+    """All that the link names as one shape."""
     shapes = shapes_of_link(link)
-    return len(shapes) == 1 and len(shapes[0].Solids) >= 1
+    return shapes[0] if len(shapes) == 1 else Part.makeCompound(shapes)
+
+
+def whole_bodies(link):
+    """The link with the solid that a face bounds in the place of the face, as a click in the view names a face; where it bounds
+    none, the whole object."""
+    paths = []
+    for root, path in parts_of_link(link):
+        prefix, _, element = path.rpartition(".")
+        if element.startswith("Face"):
+            path = _path_of_solid(root, f"{prefix}." if prefix else "", int(element[len("Face") :]))
+        if path not in paths:
+            paths.append(path)
+    return (link[0], paths) if paths else link
+
+
+def _path_of_solid(root, prefix, number):
+    owner = shape_of(root, prefix)
+    if len(owner.Solids) < 2:
+        return prefix
+    face = owner.Faces[number - 1]
+    owners = [i for i, solid in enumerate(owner.Solids, 1) if any(face.isSame(each) for each in solid.Faces)]
+    return f"{prefix}Solid{owners[0]}" if owners else f"{prefix}Face{number}"
 
 
 def point_of_link(link):
@@ -75,10 +107,9 @@ def direction_of_link(link):
 
 def end_of_link(link, flip=False):
     """Where a cable leaves what the link names: a plane face at its centre along its outward normal, a circle at its centre
-    along its axis, another edge at the end that is nearest to nothing else, along its tangent; an end of an edge where its
-    vertex is named with it."""
-    shapes = shapes_of_link(link)
-    end = _end_of_shapes(shapes)
+    along its axis, another edge at its end, or at that of its vertices which is named with it, along its tangent; a coordinate
+    system at its origin along its x axis, or along that of its axes which is named."""
+    end = _end_of_coordinate_system(link) or _end_of_shapes(shapes_of_link(link))
     return End(end.point, end.outward.negative()) if flip else end
 
 
@@ -89,7 +120,29 @@ def _end_of_shapes(shapes):
     edges = [e for s in shapes if s.ShapeType != "Vertex" for e in s.Edges]
     if len(edges) == 1 and len(vertices) <= 1:
         return _end_of_edge(edges[0], vertices[0].Point if vertices else None)
-    raise NoPlace("choose a plane face, a circle, or an edge, with one of its two points where it matters which")
+    raise NoPlace("choose a plane face, a circle, a coordinate system, or an edge, with one of its two points where it matters which")
+
+
+def is_coordinate_system(obj):
+    """Whether an object is one of PartDesign, or of FreeCAD 1.0."""
+    return any(obj.isDerivedFrom(kind) for kind in ("PartDesign::CoordinateSystem", "App::LocalCoordinateSystem"))
+
+
+def _end_of_coordinate_system(link):
+    """None where the link names something else."""
+    parts = parts_of_link(link)
+    if len(parts) != 1:
+        return None
+    root, path = parts[0]
+    obj = root.getSubObject(path, retType=_OBJECT)
+    if obj is None or not is_coordinate_system(obj):
+        return None
+    prefix, _, axis = path.rpartition(".")
+    placement = root.getSubObject(f"{prefix}." if prefix else "", retType=_PLACEMENT)
+    return End(placement.Base, placement.Rotation.multVec(AXES.get(axis, AXES["X"])))
+
+
+_OBJECT, _PLACEMENT = 1, 3  # what getSubObject is asked for
 
 
 def _end_of_edge(edge, near):
@@ -107,6 +160,6 @@ def _tangent(edge, parameter):
 
 
 def _outward_normal(face):
-    if face.Surface.TypeId != "Part::GeomPlane":
+    if face.Surface.TypeId != PLANE:
         raise NoPlace("the face is not plane; choose a plane face, or the circle around it")
     return FreeCAD.Vector(face.normalAt(0, 0)).normalize()

@@ -5,7 +5,7 @@ from PySide import QtGui
 
 from ..geometry import places
 
-KINDS = {"Axis": "Edge Solid Wire", "Profile": "Edge Face Wire", "Point": "Vertex", "FromPoint": "Vertex", "ToPoint": "Vertex",
+KINDS = {"Axis": "Edge Solid Wire Face", "Profile": "Edge Face Wire", "Point": "Vertex", "FromPoint": "Vertex", "ToPoint": "Vertex",
          "DirectionOf": "Edge Face", "From": "Face Edge Vertex", "To": "Face Edge Vertex"}  # fmt: skip
 
 
@@ -17,7 +17,7 @@ class Gate:
 
     def allow(self, document, obj, sub):
         element = sub.rsplit(".", 1)[-1].rstrip("0123456789")
-        return not element or not self.kinds or element in self.kinds
+        return not element or not self.kinds or element in self.kinds or ("Face" in self.kinds and places.is_coordinate_system(obj))
 
 
 def link_of_selection():
@@ -39,6 +39,7 @@ class ReferenceList(QtGui.QWidget):
         self.obj, self.prop = obj, row.name
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        self.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Maximum)
         self.list = QtGui.QListWidget()
         self.list.setMaximumHeight(64)
         self.pick = QtGui.QPushButton("Pick")
@@ -62,7 +63,7 @@ class ReferenceList(QtGui.QWidget):
         self.end_picking()
         link = link_of_selection()
         if link is not None:
-            self.set_link(link)
+            self.set_link(places.whole_bodies(link) if self.prop == "Axis" else link)
 
     def end_picking(self):
         FreeCADGui.Selection.removeSelectionGate()

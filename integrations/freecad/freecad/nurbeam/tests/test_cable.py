@@ -104,3 +104,21 @@ class Cables(DocumentTest):
         self.assertLess(edge.valueAt(edge.FirstParameter).Length, 1e-9)
         self.assertLess(edge.valueAt(edge.LastParameter).distanceToPoint(Vector(600, 0, 100)), 1e-9)
         self.assertLess(edge.tangentAt(edge.LastParameter).getAngle(Vector(1, 0, 0)), 1.7e-6)
+
+    def test_between_coordinate_systems_along_their_axes(self):
+        part = self.document.addObject("App::Part", "Placed")
+        here = part.newObject("PartDesign::CoordinateSystem", "Here")
+        part.Placement = Placement(Vector(0, 0, 50), Rotation(Vector(0, 0, 1), 90))
+        here.Placement = Placement(Vector(10, 0, 0), Rotation(Vector(0, 0, 1), -90))
+        there = self.document.addObject("PartDesign::CoordinateSystem", "There")
+        there.Placement = Placement(Vector(700, 10, 50), Rotation(Vector(0, 1, 0), -90))
+        self.cable.From, self.cable.To = (part, [f"{here.Name}."]), (there, ["Z"])
+        edge = self.find(800)
+        first, last = edge.FirstParameter, edge.LastParameter
+        self.assertLess(edge.valueAt(first).distanceToPoint(Vector(0, 10, 50)), 1e-9)
+        self.assertLess(edge.valueAt(last).distanceToPoint(Vector(700, 10, 50)), 1e-9)
+        self.assertLess(edge.tangentAt(first).getAngle(Vector(1, 0, 0)), 1.7e-6)
+        self.assertLess(edge.tangentAt(last).getAngle(Vector(1, 0, 0)), 1.7e-6)  # against the z axis of that end
+        self.cable.To = there
+        edge = self.find(1100)
+        self.assertLess(edge.tangentAt(edge.LastParameter).getAngle(Vector(0, 0, -1)), 1.7e-6)

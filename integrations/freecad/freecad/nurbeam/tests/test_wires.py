@@ -7,7 +7,8 @@ from FreeCAD import Placement, Rotation, Vector
 
 from .. import objects
 from ..case.axes import axis_of
-from ..geometry import edges, wires
+from ..geometry import edges, places, wires
+from ..run.pipes import NoPipe
 from .support import DocumentTest, arc_wire, bent_pipe
 
 
@@ -36,6 +37,38 @@ class Wires(DocumentTest):
         self.assertAlmostEqual(edges.spline_of_nurbs(axis.nurbs).length(), 250 + 25 * math.pi, 9)
         self.assertAlmostEqual(1000 * axis.radius, 10, 9)
         self.assertAlmostEqual(1000 * axis.bore, 8, 9)
+
+    def length_of(self, link):
+        beam = objects.make(objects.Beam, self.document)
+        beam.Axis = link
+        return edges.spline_of_nurbs(axis_of(beam).nurbs).length()
+
+    def test_a_click_on_a_face_means_the_solid_that_it_bounds(self):
+        pipe = self.add(bent_pipe(), "Pipe")
+        self.assertEqual(places.whole_bodies((pipe, ["Face2", "Face5"])), (pipe, [""]))
+        self.assertEqual(places.whole_bodies((pipe, ["Edge2"])), (pipe, ["Edge2"]))
+        rods = [Part.makeCylinder(2, 100), Part.makeCylinder(3, 200, Vector(50, 0, 0))]
+        part = self.document.addObject("App::Part", "Part")
+        both = self.add(Part.makeCompound(rods), "Both")
+        part.addObject(both)
+        for i, face in enumerate(both.Shape.Faces, 1):
+            link = places.whole_bodies((part, [f"{both.Name}.Face{i}"]))
+            length = 200 if face.CenterOfMass.x > 25 else 100
+            self.assertAlmostEqual(self.length_of(link), length, 9)
+        with self.assertRaisesRegex(NoPipe, "2 different sections|2 pieces of pipe"):
+            self.length_of((part, [f"{both.Name}."]))
+
+    def test_the_faces_of_a_pipe_that_is_no_solid_give_its_centre_line(self):
+        faces = [face for face in bent_pipe().Faces if face.Surface.TypeId != "Part::GeomPlane"]
+        drawn = self.add(Part.makeCompound([Part.makeShell([face]) for face in faces]), "Shells")
+        self.assertEqual(len(drawn.Shape.Solids), 0)
+        link = places.whole_bodies((drawn, ["Face1"]))
+        self.assertTrue(places.has_body(link))
+        self.assertAlmostEqual(self.length_of(link), 250 + 25 * math.pi, 9)
+
+    def test_the_outline_of_a_plane_face_is_a_line_and_no_pipe(self):
+        disc = self.add(Part.Face(Part.Wire(Part.makeCircle(50))), "Disc")
+        self.assertAlmostEqual(self.length_of((disc, [""])), 100 * math.pi, 9)
 
     def test_reversed_swaps_the_ends(self):
         beam = objects.make(objects.Beam, self.document)
