@@ -104,6 +104,7 @@ class Run(QtCore.QObject):
         if self.analysis.Threads:
             arguments += ["--threads", str(self.analysis.Threads)]
         Run.running[self.key] = self
+        self._before = self.analysis.Status, self.analysis.Message
         self.analysis.Status, self.analysis.Message = "Running", ""
         self._process.start(program(), arguments)
 
@@ -176,6 +177,7 @@ class Run(QtCore.QObject):
 
     def _keep(self, code, message):
         document = self.analysis.Document
+        self.analysis.Status, self.analysis.Message = self._before  # what undo leads back to
         document.openTransaction("Run")
         errors = [f.message for f in self.findings if f.severity == "error"]
         texts = [line.message for line in self.lines if line.message and not line.severity and self.folder not in line.message]
@@ -189,6 +191,8 @@ class Run(QtCore.QObject):
 
 def start_run(analysis):
     """(run or None, findings): checks the analysis and, where nothing is wrong, starts its run."""
+    if (analysis.Document.Name, analysis.Name) in Run.running:
+        return None, [Finding("error", analysis, "Status", "is running already; stop it first")]
     try:
         case, findings = check(analysis)
         program()

@@ -108,6 +108,21 @@ class Runs(DocumentTest):
         self.assertIn("equilibrium", phases)
         self.assertEqual(run_analysis.Run.running, {})
 
+    def test_undo_of_a_run_leads_back_to_what_was_before(self):
+        self.document.UndoMode = 1
+        run = self.begin()
+        self.assertEqual(self.analysis.Status, "Running")
+        again, findings = run_analysis.start_run(self.analysis)
+        self.assertIsNone(again)
+        self.assertIn("running already", findings[0].message)
+        self.assertTrue(run.wait(60))
+        self.assertEqual((self.analysis.Status, self.document.UndoNames[0]), ("Done", "Run"))
+        self.document.undo()
+        self.assertEqual((self.analysis.Status, objects.result_of(self.analysis)), ("Never run", None))
+        self.document.redo()
+        self.assertEqual(self.analysis.Status, "Done")
+        self.assertEqual(len(objects.result_of(self.analysis).Times), 1)
+
     def test_a_run_that_is_stopped_keeps_its_results_until_then(self):
         self.make_long()
         run = self.begin()
