@@ -21,7 +21,7 @@ class _DocumentWatch:
     """Of documents that are made, loaded, and closed."""
 
     def slotChangedObject(self, obj, prop):
-        if prop == "NurbeamType":
+        if prop == "NurbeamType" and not obj.Document.Restoring:  # a file that is being read has a view of its own
             give_view(obj)
 
     def slotActivateDocument(self, document):
