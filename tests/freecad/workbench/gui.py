@@ -45,9 +45,7 @@ def picture(name, fit=True):
     if fit:
         Gui.SendMsgToActiveView("ViewFit")
     settle(0.6)
-    window = Gui.getMainWindow()
     pixmap = QtGui.QApplication.primaryScreen().grabWindow(0)
-    pixmap = pixmap.copy(window.geometry())
     file = os.path.join(PICTURES, f"{name}.png")
     pixmap.save(file)
     image = pixmap.toImage()
@@ -369,8 +367,7 @@ def test_zip_line():
 
 
 def main():
-    Gui.getMainWindow().resize(1400, 900)
-    Gui.getMainWindow().move(0, 0)
+    Gui.getMainWindow().setGeometry(QtGui.QApplication.primaryScreen().geometry())  # all of it, whose pixels may be no whole ones
     widen_panels()
     FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Start").SetBool("ShowOnStartup", False)
     folder = tempfile.mkdtemp()

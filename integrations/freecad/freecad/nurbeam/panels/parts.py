@@ -1,13 +1,19 @@
 """The panel of beams, supports, bodies, loads and the like: a form made of the table of the object."""
 
+import FreeCAD
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..objects.place import Placed
 from .fields import field_of
 from .task import TaskPanel
 
 # Rows that are of use only with some choices of another row.
 SHOWN_WITH = {
+    objects.Analysis.TYPE: {
+        "AnalysisType": {"EndTime": ("Motion",), "Step": ("Motion",), "Tolerance": ("Motion",), "Every": ("Motion",),
+                         "Start": ("Motion",), "LoadSteps": ("Equilibrium",), "ModeCount": ("Modes", "Buckling")},
+    },
     objects.Beam.TYPE: {
         "SectionKind": {
             "Radius": ("Round", "Pipe"), "Bore": ("Pipe",), "Width": ("Rectangle", "I"), "Height": ("Rectangle", "I"),
@@ -38,6 +44,8 @@ SHOWN_WITH = {
     },
     objects.DeformedShape.TYPE: {"Form": {"Radius": ("Solid",), "Bore": ("Solid",)}},
 }  # fmt: skip
+LAST, PLACE = "More", "Place"  # groups: the last tab; the one that shares a page with what stands at the place
+LABELS = {"Slack": "Slack [%]"}  # of numbers whose unit no widget shows
 PLACES = {"PlaceLength": ("Length",), "Fraction": ("Fraction",), "Point": ("At a point",)}
 
 
@@ -50,11 +58,35 @@ def rules_of(obj):
     return rules
 
 
+RECOMPUTE_AFTER = 200  # ms without another change
+
+
 class PartPanel(TaskPanel):
-    """A tab for each group of properties."""
+    """A tab for each group of properties. Symbols and messages follow what is said, where that takes no time."""
 
     def __init__(self, obj):
+        self.timer = QtCore.QTimer()
+        self.timer.setSingleShot(True)
+        self.timer.setInterval(RECOMPUTE_AFTER)
         super().__init__(obj, obj.Label)
+        self.timer.timeout.connect(self.recompute)
+        if isinstance(obj.Proxy, (Placed, objects.Beam)):
+            FreeCAD.addDocumentObserver(self)
+
+    def slotChangedObject(self, obj, prop):
+        """Called by FreeCAD."""
+        if obj is self.obj and any(row.name == prop and not row.output for row in obj.Proxy.table()):
+            self.timer.start()
+
+    def recompute(self):
+        self.obj.recompute()
+        self._show_message()
+
+    def leave(self):
+        self.timer.stop()
+        if isinstance(self.obj.Proxy, (Placed, objects.Beam)):
+            FreeCAD.removeDocumentObserver(self)
+        super().leave()
 
     def build(self):
         self.fields, self.labels, self.tab_of = {}, {}, {}
@@ -63,13 +95,13 @@ class PartPanel(TaskPanel):
         self.tabs = QtGui.QTabWidget()
         self.layout.addWidget(self.tabs)
         self.layout.addWidget(self.message)
-        pages = {}
-        for row in self.obj.Proxy.table():
-            if row.hidden or row.output:
-                continue
-            if row.group not in pages:
-                pages[row.group] = self._page(row.group)
-            self._add(row, pages[row.group])
+        pages, rows = {}, [row for row in self.obj.Proxy.table() if not (row.hidden or row.output)]
+        main = next(row.group for row in rows if row.group not in (LAST, PLACE))
+        for row in rows:
+            group = main if row.group == PLACE else row.group
+            if group not in pages:
+                pages[group] = self._page(group)
+            self._add(row, pages[group])
         self._order_tabs()
         for choice in rules_of(self.obj):
             self.fields[choice].currentTextChanged.connect(lambda _: self.show_rows())
@@ -84,7 +116,7 @@ class PartPanel(TaskPanel):
 
     def _add(self, row, layout):
         field = field_of(self.obj, row)
-        label = QtGui.QLabel(_words(row.name))
+        label = QtGui.QLabel(LABELS.get(row.name) or _words(row.name))
         for widget in (field, label):
             widget.setToolTip(row.help)
         layout.addRow(label, field)
@@ -92,9 +124,8 @@ class PartPanel(TaskPanel):
         self.tab_of[row.name] = layout.parentWidget()
 
     def _order_tabs(self):
-        """"More" last."""
         for i in range(self.tabs.count()):
-            if self.tabs.tabText(i) == "More":
+            if self.tabs.tabText(i) == LAST:
                 self.tabs.tabBar().moveTab(i, self.tabs.count() - 1)
                 break
         self.tabs.setCurrentIndex(0)

@@ -8,7 +8,7 @@ from .. import objects
 from ..view.animation import COLOURS, UNITS
 
 PLAY_INTERVAL = 40  # ms
-ROUND_OFF = 1e-9  # of the other end of the colours
+NOUGHT = 1e-4  # of the other end of the colours: what is less is shown as 0
 PLAY_SECONDS = 5.0  # in which a motion is shown where it is much shorter or longer
 
 
@@ -29,7 +29,7 @@ class Legend(QtGui.QWidget):
         layout.setStretch(1, 1)
 
     def show_scale(self, scale, unit):
-        low = scale.low if abs(scale.low) > ROUND_OFF * abs(scale.high) else 0
+        low = scale.low if abs(scale.low) > NOUGHT * abs(scale.high) else 0
         self.low.setText(f"{low:.4g}")
         self.high.setText(f"{scale.high:.4g} {unit}".strip())
         self.setToolTip(f"Colours span 98 % of all values; the least is {scale.least:.6g}, the greatest {scale.greatest:.6g}")
@@ -72,6 +72,13 @@ class ResultsPanel:
                              ("Colour", self.colour), ("", self.legend), ("", self.tube), ("History", self.plots),
                              ("", self.plot_button), ("", self.keep_button), ("Events", self.events)):  # fmt: skip
             layout.addRow(name, widget)
+
+        if len(self.animation.times) == 1:
+            for widget in (self.slider, self.time, self.play_button, self.plots, self.plot_button):  # of an equilibrium
+                widget.hide()
+                label = layout.labelForField(widget)
+                if label:
+                    label.hide()
 
     def _connect(self):
         self.timer = QtCore.QTimer()

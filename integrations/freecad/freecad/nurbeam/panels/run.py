@@ -22,6 +22,7 @@ class RunPanel(PartPanel):
             button.clicked.connect(does)
             buttons.addWidget(button)
         self.progress, self.phase = QtGui.QProgressBar(), QtGui.QLabel()
+        self.phase.setWordWrap(True)
         self.messages = QtGui.QListWidget()
         self.messages.setWordWrap(True)
         self.messages.itemClicked.connect(self.open_object)
@@ -53,6 +54,8 @@ class RunPanel(PartPanel):
             self.phase.setText("Nothing is wrong.")
 
     def run(self):
+        if self.process:
+            return
         run, findings = start_run(self.obj)
         self.show_findings(findings)
         if run:
@@ -79,7 +82,7 @@ class RunPanel(PartPanel):
             self.progress.setRange(0, 1000)
             self.progress.setValue(int(1000 * line.fraction))
         to_go = f", {line.seconds_to_go:.0f} s to go" if line.seconds_to_go is not None else ""
-        at = f", t = {line.time:.4g}" if line.time is not None else ""
+        at = f", t = {line.time:.4g} s" if line.time is not None else ""
         self.phase.setText(f"{line.phase.capitalize()}{at}{to_go}")
         FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.obj.Label}: {self.phase.text()}")
 

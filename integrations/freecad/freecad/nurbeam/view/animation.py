@@ -3,6 +3,7 @@
 import numpy as np
 from pivy import coin
 
+from ..case.axes import axis_of
 from ..case.write_case import written_case
 from ..run.results import read
 
@@ -125,8 +126,11 @@ class Animation:
     def _radius(self, name):
         """[mm]"""
         beam = self.objects.get(name)
-        kinds = {"Round": "Radius", "Pipe": "Radius"}
-        return getattr(beam, kinds[beam.SectionKind]).Value if beam is not None and beam.SectionKind in kinds else 0
+        if beam is None or beam.SectionKind not in ("Round", "Pipe", "Rope", "Of the pipe"):
+            return 0
+        if beam.SectionKind == "Of the pipe":
+            return 1000 * axis_of(beam).radius
+        return beam.RopeDiameter.Value / 2 if beam.SectionKind == "Rope" else beam.Radius.Value
 
     def _all_points(self, name):
         """(frames + 1, PLACES, 3) [mm] at equal material coordinates; the first is the drawing."""

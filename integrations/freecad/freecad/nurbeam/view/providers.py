@@ -49,6 +49,33 @@ class Provider:
     __setstate__ = loads
 
 
+class PlainProvider(Provider):
+    """Of objects that show nothing of their own; without a display mode the tree greys them as if they were hidden."""
+
+    def attach(self, view):
+        super().attach(view)
+        view.addDisplayMode(coin.SoSeparator(), "Plain")
+
+    def getDisplayModes(self, view):
+        return ["Plain"]
+
+    def getDefaultDisplayMode(self):
+        return "Plain"
+
+    def setDisplayMode(self, mode):
+        return mode
+
+
+class AnalysisProvider(Provider):
+    """Of an analysis: a double click also makes it the active one."""
+
+    def doubleClicked(self, view):
+        from ..commands.command import activate
+
+        activate(view.Object)
+        return super().doubleClicked(view)
+
+
 class SymbolProvider(Provider):
     """Of objects that stand at a place of a beam."""
 
@@ -103,12 +130,13 @@ class ResultProvider(Provider):
             self.animation = None
 
 
+SHOWN = {objects.Analysis.TYPE: AnalysisProvider, objects.Result.TYPE: ResultProvider,
+         **dict.fromkeys((objects.Beam.TYPE, objects.Joint.TYPE, objects.Connector.TYPE), PlainProvider)}  # fmt: skip
+
 
 def provider_of(obj):
     """The class for an object of the workbench; None for another one."""
     kind = objects.type_of(obj)
     if kind in symbols.SYMBOLS:
         return SymbolProvider
-    if kind == objects.Result.TYPE:
-        return ResultProvider
-    return Provider if kind in objects.BY_TYPE else None
+    return SHOWN.get(kind, Provider) if kind in objects.BY_TYPE else None
