@@ -25,8 +25,20 @@ def take_over(fem, analysis):
         elif constraint.TypeId == "Fem::ConstraintForce":
             made += _forces_of(constraint, beams, analysis, notes)
         elif _kind(constraint) == "Fem::ConstraintSelfWeight":
-            analysis.GravityDirection = FreeCAD.Vector(constraint.Gravity_x, constraint.Gravity_y, constraint.Gravity_z)
+            analysis.GravityDirection = _gravity_of(constraint)
     return made, notes
+
+
+def _gravity_of(weight):
+    """Three numbers in FreeCAD 0.20 and 0.21, a vector later."""
+    if "GravityDirection" in weight.PropertiesList:
+        return FreeCAD.Vector(weight.GravityDirection)
+    return FreeCAD.Vector(weight.Gravity_x, weight.Gravity_y, weight.Gravity_z)
+
+
+def _newtons(force):
+    """FEM's `Force` is a number in newtons in FreeCAD 0.20, a quantity later."""
+    return force.getValueAs("N").Value if hasattr(force, "getValueAs") else force
 
 
 def _kind(obj):
@@ -76,10 +88,10 @@ def _beam_at(vertex, beams):
 
 
 def _forces_of(constraint, beams, analysis, notes):
-    """FEM's `Force` is a number in newtons, which all its references share."""
+    """All references of a force share it."""
     loads = _at_references(constraint, objects.Load, beams, analysis, notes)
     direction = constraint.DirectionVector
     for load in loads:
-        load.Force = f"{constraint.Force / len(loads)!r} N"
+        load.Force = f"{_newtons(constraint.Force) / len(loads)!r} N"
         load.Direction = direction
     return loads
