@@ -81,6 +81,10 @@ def agree(a, b, of_points=False):
         return a.keys() == b.keys() and all(agree(a[k], b[k], points and k != "knots") for k in a)
     if isinstance(a, list) and isinstance(b, list):
         return len(a) == len(b) and all(agree(x, y, of_points) for x, y in zip(a, b))
-    if isinstance(a, bool) or isinstance(b, bool) or isinstance(a, str) or isinstance(b, str) or a is None or b is None:
+    if not (_is_number(a) and _is_number(b)):
         return a == b
     return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12 if of_points else 0)
+
+
+def _is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

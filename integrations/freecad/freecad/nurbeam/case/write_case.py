@@ -89,9 +89,13 @@ class _Writer:
             names[obj] = name_for_case(obj.Label, set(names.values()), obj.Name)
         return names
 
-    def with_extra(self, obj, keys):
+    def with_extra(self, obj, keys, path=""):
+        """The keys with the extra ones of the object; messages about those that are new belong to ExtraKeys."""
         with self.faults_of(obj, "ExtraKeys"):
-            return merged(keys, obj.ExtraKeys)
+            result = merged(keys, obj.ExtraKeys)
+            for key in result.keys() - keys.keys():
+                self.place(f"{path}.{key}" if path else key, obj, "ExtraKeys")
+            return result
         return keys
 
 
@@ -118,7 +122,8 @@ def written_case(analysis):
 def _write_lists(found, case, writer):
     def write(key, group, keys_of, names=None):
         names = names if names is not None else writer.named(group)
-        items = [writer.with_extra(obj, keys_of(obj, names[obj], writer, f"{key}[{i}]")) for i, obj in enumerate(group)]
+        paths = [f"{key}[{i}]" for i in range(len(group))]
+        items = [writer.with_extra(obj, keys_of(obj, names[obj], writer, path), path) for obj, path in zip(group, paths)]
         if items:
             case[key] = items
 
