@@ -8,6 +8,7 @@ from .. import objects
 from .references import ReferenceList
 
 QUANTITIES = ("Length", "Distance", "Area", "Force", "Speed", "Acceleration", "Quantity")
+DIGITS = 10  # that are shown of quantities
 TARGETS = {
     "Beam": (objects.Beam,), "FromObject": (objects.Beam, objects.SlidingBody), "ToObject": (objects.Beam, objects.SlidingBody),
 }  # fmt: skip
@@ -15,8 +16,6 @@ TARGETS = {
 
 def field_of(obj, row):
     """A widget for a row of the table of an object."""
-    if row.unit == "s":
-        return _time(obj, row)
     if row.type in QUANTITIES:
         return _quantity(obj, row)
     makers = {"Enumeration": _enumeration, "Bool": _bool, "Integer": _integer, "Float": _float, "Vector": _vector,
@@ -25,36 +24,19 @@ def field_of(obj, row):
 
 
 def _quantity(obj, row):
-    """FreeCAD's own box, which takes units and expressions."""
+    """FreeCAD's own box, which takes units and expressions. It shows two decimals of what has no format of its own."""
     box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
-    quantity = getattr(obj, row.name)
+    quantity = FreeCAD.Units.Quantity(getattr(obj, row.name))  # of its own: the format of the property's would be written to it
+    quantity.Format = {"Precision": DIGITS, "NumberFormat": "g", "Denominator": 8}
     box.setProperty("unit", quantity.getUserPreferred()[2])
     box.setProperty("minimum", 0.0 if row.type in ("Length", "Area") else -1e300)
     box.setProperty("maximum", 1e300)
-    box.setProperty("rawValue", quantity.Value)
+    box.setProperty("value", quantity)
     FreeCADGui.ExpressionBinding(box).bind(obj, row.name)
     unit = quantity.Unit
     QtCore.QObject.connect(box, QtCore.SIGNAL("valueChanged(double)"),
                            lambda value: setattr(obj, row.name, FreeCAD.Units.Quantity(value, unit)))  # fmt: skip
     return box
-
-
-def _time(obj, row):
-    """FreeCAD has no unit below the second, and its box two decimals: a line that shows all digits."""
-    line = FreeCADGui.UiLoader().createWidget("Gui::InputField")
-    FreeCADGui.ExpressionBinding(line).bind(obj, row.name)  # shows two decimals
-    line.setText(f"{getattr(obj, row.name).getValueAs('s').Value:.10g} s")
-
-    def changed(text):
-        try:
-            quantity = FreeCAD.Units.Quantity(text)
-        except (ValueError, ArithmeticError, FreeCAD.Base.ParserError):
-            return  # half written; the line shows it red
-        if quantity.Unit == getattr(obj, row.name).Unit:
-            setattr(obj, row.name, quantity)
-
-    line.textChanged.connect(changed)
-    return line
 
 
 def _enumeration(obj, row):
