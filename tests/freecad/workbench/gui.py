@@ -85,6 +85,22 @@ def panel_of(obj):
     return opened[0] if opened else None
 
 
+def write(widget, text):
+    """Types a text in the place of another."""
+    widget.setFocus()
+    widget.selectAll()
+    for character in text:
+        for kind in (QtCore.QEvent.KeyPress, QtCore.QEvent.KeyRelease):
+            QtGui.QApplication.sendEvent(widget, QtGui.QKeyEvent(kind, ord(character.upper()), QtCore.Qt.NoModifier, character))
+    settle(0.1)
+
+
+def leave(widget):
+    """Takes the focus from a widget, as the tabulator does."""
+    widget.clearFocus()
+    settle(0.2)
+
+
 def pipe():
     """As a user draws one: a sketch with lines and an arc, swept by rings."""
     arc = Part.ArcOfCircle(Part.Circle(Vector(500, 200, 0), Vector(0, 0, 1), 200), -math.pi / 2, 0).toShape()
@@ -116,7 +132,7 @@ def test_a_pipe_of_a_foreign_file_becomes_a_beam_in_three_clicks(folder):
     document.recompute()
     solid = next(o for o in document.Objects if hasattr(o, "Shape") and o.Shape.Solids and not o.TypeId.startswith("App::"))
     Gui.activeDocument().activeView().viewIsometric()
-    select(solid)  # one
+    select(solid, "Face2")  # one: a click in the view is one at a face
     run_command("Nurbeam_Beam")  # two
     expect("a panel is open", dialog())
     picture("beam")
@@ -159,6 +175,7 @@ def test_hang_load_and_run(document, beam):
     panel = panel_of(load)
     panel.fields["PlaceKind"].setCurrentText("Start")
     expect("a choice of the panel is written at once", load.PlaceKind == "Start")
+    expect("and the symbol follows", wait_for(lambda: load.Position.Length < 1e-9, 5))
     close(False)
     expect("Cancel takes it back", load.PlaceKind == "End")
     panel = panel_of(load)
@@ -180,9 +197,18 @@ def run_and_look(document, analysis):
 
     panel = panel_of(analysis)
     expect("the panel of the analysis opens", panel is not None)
-    expect(f"a time has all its digits: {panel.fields['Every'].text()}", panel.fields["Every"].text().replace(" ", "") == "0.025s")
-    panel.fields["Every"].setText("0.02 s")
+    every = panel.fields["Every"]
+    expect(f"a time has all its digits: {every.property('text')}", every.property("text").replace(" ", "") == "0.025s")
+    write(every, "0.0123 s")
+    leave(every)
+    expect(f"a time that is typed keeps them: {analysis.Every}", abs(analysis.Every.getValueAs("s").Value - 0.0123) < 1e-12)
+    close(False)
+    settle(0.3)
+    expect("Cancel takes it back", abs(analysis.Every.getValueAs("s").Value - 0.025) < 1e-12)
+    panel = panel_of(analysis)
+    write(panel.fields["Every"], "0.02 s")
     expect("and is written", abs(analysis.Every.getValueAs("s").Value - 0.02) < 1e-12)
+    expect("of other kinds of analysis nothing is asked", not panel.fields["ModeCount"].isVisible())
     ticks = []
     timer = QtCore.QTimer()
     timer.timeout.connect(lambda: ticks.append(1))
@@ -314,6 +340,61 @@ def test_cable():
     expect("it follows its length", cable.Shape.Edges[0].Length != before and cable.State == ["Up-to-date"])
 
 
+def test_two_analyses():
+    from freecad.nurbeam import objects
+    from freecad.nurbeam.run.run_analysis import Run
+
+    document = FreeCAD.newDocument("Two")
+    bar = document.addObject("Part::Feature", "Bar")
+    bar.Shape = Part.makeLine(Vector(0, 0, 0), Vector(1000, 0, 0))
+    select(bar, "Edge1")
+    run_command("Nurbeam_Beam")
+    close(True)
+    run_command("Nurbeam_Support")
+    close(True)
+    run_command("Nurbeam_Analysis")
+    close(True)
+    first, second = [o for o in document.Objects if objects.type_of(o) == objects.Analysis.TYPE]
+    run_command("Nurbeam_Support")
+    close(True)
+    expect("what is new goes to the analysis that was made last", len(second.Group) == 1)
+    first.ViewObject.Proxy.doubleClicked(first.ViewObject)
+    settle(0.3)
+    close(True)
+    run_command("Nurbeam_Probe")
+    close(True)
+    expect("a double click makes the other one active", len(first.Group) == 3 and len(second.Group) == 1)
+    first.EndTime, first.Step = "1000 s", "0.0002 s"
+    panel = panel_of(first)
+    panel.run_button.click()
+    wait_for(lambda: "Motion" in panel.phase.text(), 20)
+    close(True)
+    bar = Gui.getMainWindow().statusBar()
+    before = bar.currentMessage()
+    expect("a run goes on when its panel is closed, as the status bar tells", wait_for(lambda: bar.currentMessage() != before, 20))
+    panel = panel_of(first)
+    expect("a panel that is opened again follows it", panel.process is not None and not panel.run_button.isEnabled())
+    FreeCAD.closeDocument(document.Name)
+    expect("closing the document ends its runs", wait_for(lambda: not Run.running, 20))
+
+
+def test_a_document_that_is_opened_again():
+    from freecad.nurbeam import objects
+
+    document = FreeCAD.getDocument("ZipLine")
+    file = os.path.join(tempfile.mkdtemp(), "again.FCStd")
+    document.saveAs(file)
+    FreeCAD.closeDocument(document.Name)
+    document = FreeCAD.openDocument(file)
+    settle(0.3)
+    own = [o for o in document.Objects if objects.type_of(o)]
+    expect("all views are attached", own and all(getattr(o.ViewObject.Proxy, "Object", None) is o for o in own))
+    expect("and a look at it changes nothing", not Gui.ActiveDocument.Modified)
+    result = next(o for o in own if objects.type_of(o) == objects.Result.TYPE)
+    expect("the panel of the result opens", panel_of(result) is not None)
+    close(True)
+
+
 def hide_report():
     for dock in Gui.getMainWindow().findChildren(QtGui.QDockWidget):
         if dock.objectName() == "Report view":
@@ -379,6 +460,8 @@ def main():
     test_faults(document, beam)
     test_cable()
     test_zip_line()
+    test_a_document_that_is_opened_again()
+    test_two_analyses()
 
 
 def guarded():

@@ -116,7 +116,7 @@ class PartPanel(TaskPanel):
 
     def _add(self, row, layout):
         field = field_of(self.obj, row)
-        label = QtGui.QLabel(LABELS.get(row.name) or _words(row.name))
+        label = QtGui.QLabel(LABELS.get(row.name) or words(row.name))
         for widget in (field, label):
             widget.setToolTip(row.help)
         layout.addRow(label, field)
@@ -149,7 +149,6 @@ class PartPanel(TaskPanel):
             self.fields[prop].setFocus(QtCore.Qt.OtherFocusReason)
 
 
-def _words(name):
+def words(name):
     """"PlaceLength" as "Place length"."""
-    words = "".join(" " + c.lower() if c.isupper() and i > 0 else c for i, c in enumerate(name))
-    return words
+    return "".join(" " + c.lower() if c.isupper() and i > 0 else c for i, c in enumerate(name))

@@ -14,10 +14,11 @@ class Gate:
 
     def __init__(self, prop):
         self.kinds = KINDS.get(prop, "").split()
+        self.is_of_end = prop in ("From", "To")
 
     def allow(self, document, obj, sub):
         element = sub.rsplit(".", 1)[-1].rstrip("0123456789")
-        return not element or not self.kinds or element in self.kinds or ("Face" in self.kinds and places.is_coordinate_system(obj))
+        return not element or not self.kinds or element in self.kinds or (self.is_of_end and places.is_coordinate_system(obj))
 
 
 def link_of_selection():

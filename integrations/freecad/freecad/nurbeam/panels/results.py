@@ -41,7 +41,8 @@ class ResultsPanel:
     def __init__(self, obj):
         self.obj, self.document = obj, obj.Document
         self.animation = obj.ViewObject.Proxy.begin()
-        self.unit = "s" if obj.Analysis and obj.Analysis.AnalysisType == "Motion" else ""
+        kind = obj.Analysis.AnalysisType if obj.Analysis else "Motion"
+        self.unit, self.of_modes = "s" if kind == "Motion" else "", kind in ("Modes", "Buckling")
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(obj.Label)
         layout = QtGui.QFormLayout(self.form)
@@ -73,12 +74,13 @@ class ResultsPanel:
                              ("", self.plot_button), ("", self.keep_button), ("Events", self.events)):  # fmt: skip
             layout.addRow(name, widget)
 
-        if len(self.animation.times) == 1:
-            for widget in (self.slider, self.time, self.play_button, self.plots, self.plot_button):  # of an equilibrium
-                widget.hide()
-                label = layout.labelForField(widget)
-                if label:
-                    label.hide()
+        over_time = (self.play_button, self.plots, self.plot_button)
+        of_one_state = len(self.animation.times) == 1  # as an equilibrium
+        for widget in (self.slider, self.time, *over_time) if of_one_state else over_time if self.of_modes else ():
+            widget.hide()
+            label = layout.labelForField(widget)
+            if label:
+                label.hide()
 
     def _connect(self):
         self.timer = QtCore.QTimer()
@@ -96,7 +98,13 @@ class ResultsPanel:
     def show(self):
         frame = self.slider.value()
         self.animation.show(frame, self.exaggeration.value(), self.tube.isChecked())
-        self.time.setText(f"{self.animation.times[frame]:.6g} {self.unit} ({frame + 1} of {len(self.animation.times)})")
+        self.time.setText(f"{self._state(self.animation.times[frame])} ({frame + 1} of {len(self.animation.times)})")
+
+    def _state(self, time):
+        """A time, or what else the states are numbered by."""
+        if self.of_modes:
+            return "at rest" if time == 0 else self.obj.Events[int(time) - 1]
+        return f"{time:.6g} {self.unit}".strip()
 
     def colour_changed(self, field):
         if field in self.animation.fields:

@@ -6,7 +6,7 @@ from PySide import QtCore, QtGui
 from .. import objects
 from ..run.run_analysis import Finding, Run, check, edited_documents, start_run
 from ..run.command import Missing
-from .parts import PartPanel
+from .parts import PartPanel, words
 
 COLOURS = {"error": "#b00020", "warning": "#a06000"}
 
@@ -39,8 +39,7 @@ class RunPanel(PartPanel):
         self.findings = list(findings)
         self.messages.clear()
         for finding in self.findings:
-            of = f"{finding.obj.Label}: " if finding.obj else ""
-            item = QtGui.QListWidgetItem(f"{finding.severity}: {of}{finding.message}", self.messages)
+            item = QtGui.QListWidgetItem(f"{finding.severity}: {_of(finding)}{finding.message}", self.messages)
             if finding.severity in COLOURS:
                 item.setForeground(QtGui.QColor(COLOURS[finding.severity]))
 
@@ -59,16 +58,29 @@ class RunPanel(PartPanel):
         run, findings = start_run(self.obj)
         self.show_findings(findings)
         if run:
+            _show_in_status_bar(run, self.obj)
             self._follow(run)
         self._show_state()
+        if not run:
+            self.phase.setText("Not run: first mend what stands below; a click leads there.")
 
     def _follow(self, run):
         self.document.commitTransaction()  # what was said until now; the run is a step of undo of its own
         edited_documents.discard(self.document.Name)
         self.process = run
-        run.progressed.connect(self._show_progress)
-        run.told.connect(lambda _: self.show_findings(run.findings))
-        run.ended.connect(self._ended)
+        self._followed = ((run.progressed, self._show_progress), (run.told, self._show_told), (run.ended, self._ended))
+        for signal, slot in self._followed:
+            signal.connect(slot)
+
+    def _show_told(self, _):
+        self.show_findings(self.process.findings)
+
+    def leave(self):
+        """The run goes on; the status bar tells of it."""
+        if self.process:
+            for signal, slot in self._followed:
+                signal.disconnect(slot)
+        super().leave()
 
     def stop(self):
         if self.process:
@@ -81,10 +93,7 @@ class RunPanel(PartPanel):
         else:
             self.progress.setRange(0, 1000)
             self.progress.setValue(int(1000 * line.fraction))
-        to_go = f", {line.seconds_to_go:.0f} s to go" if line.seconds_to_go is not None else ""
-        at = f", t = {line.time:.4g} s" if line.time is not None else ""
-        self.phase.setText(f"{line.phase.capitalize()}{at}{to_go}")
-        FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.obj.Label}: {self.phase.text()}")
+        self.phase.setText(_progress_text(line))
 
     def _ended(self, code):
         run, self.process = self.process, None
@@ -92,7 +101,6 @@ class RunPanel(PartPanel):
             self.document.openTransaction(f"Edit {self.obj.Label}")
         self.show_findings(run.findings)
         self._show_state()
-        FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.obj.Label}: {self.obj.Status}")
 
     def _show_state(self):
         runs = self.process is not None
@@ -119,6 +127,27 @@ class RunPanel(PartPanel):
         result = objects.result_of(self.obj)
         self.accept()
         QtCore.QTimer.singleShot(0, lambda: FreeCADGui.getDocument(result.Document.Name).setEdit(result.Name))
+
+
+def _progress_text(line):
+    to_go = f", {line.seconds_to_go:.0f} s to go" if line.seconds_to_go is not None else ""
+    at = f", t = {line.time:.4g} s" if line.time is not None else ""
+    return f"{line.phase.capitalize()}{at}{to_go}"
+
+
+def _show_in_status_bar(run, analysis):
+    """Also while no panel of the analysis is open."""
+    bar, label = FreeCADGui.getMainWindow().statusBar(), analysis.Label
+    run.progressed.connect(lambda line: bar.showMessage(f"{label}: {_progress_text(line)}"))
+    run.ended.connect(lambda _: bar.showMessage(f"{label}: {analysis.Status}"))
+
+
+def _of(finding):
+    """As "Beam, Radius: "; no property where it is of the object as a whole."""
+    if finding.obj is None:
+        return ""
+    known = any(row.name == finding.prop for row in finding.obj.Proxy.table())
+    return f"{finding.obj.Label}, {words(finding.prop)}: " if known else f"{finding.obj.Label}: "
 
 
 def _open(finding):

@@ -18,9 +18,10 @@ class NoResults(RuntimeError):
 
 
 def take_results(analysis, case_text, folder, findings):
-    """Keeps what a run has left in a folder in the result of the analysis, which is made where there is none."""
+    """Keeps what a run has left in a folder in the result of the analysis, which is made where there is none; None, and all as it
+    was, where the run has ended before its first state."""
     data = os.path.join(folder, "results.nc")
-    if not os.path.exists(data):
+    if not os.path.exists(data) or len(_read(data, *_version(data))) == 0:
         return None
     result = objects.result_of(analysis) or objects.make(objects.Result, analysis.Document, analysis=analysis)
     if not result.Data and result.Label.startswith("Result"):
@@ -30,7 +31,8 @@ def take_results(analysis, case_text, folder, findings):
     result.CaseText = case_text
     result.Warnings = [f"{f.severity}: {f.message}" for f in findings if f.severity != "error"]
     summary = _summary(folder)
-    result.Events = [_event_text(event) for event in summary.get("events", [])]
+    modes = summary.get("modes") or summary.get("buckling") or []
+    result.Events = [*map(_mode_text, modes), *map(_event_text, summary.get("events", []))]
     results = read(result)
     result.Times = [float(t) for t in results.times]
     result.Frame = min(result.Frame, len(results) - 1)
@@ -47,6 +49,12 @@ def _summary(folder):
         return {}
 
 
+def _mode_text(mode):
+    """As "mode 1: 14.4716 Hz" or "mode 1: buckles at 12.3 times the loads"."""
+    of = f"{mode['frequency [Hz]']:.6g} Hz" if "frequency [Hz]" in mode else f"buckles at {mode['factor']:.6g} times the loads"
+    return f"mode {mode['number']}: {of}"
+
+
 def _event_text(event):
     """As "t = 0.498 s: merge, cable, trolley, s = 2.04435 m"."""
     what = [str(event[key]) for key in ("kind", "beam", "body") if event.get(key)]
@@ -58,8 +66,12 @@ def read(result):
     """`nurbeam.Results` of the data of a result, read once. NoResults where there is none."""
     if not result.Data or not os.path.exists(result.Data):
         raise NoResults(f"{result.Label} has no data; run the analysis")
-    stat = os.stat(result.Data)
-    return _read(result.Data, stat.st_mtime_ns, stat.st_size)
+    return _read(result.Data, *_version(result.Data))
+
+
+def _version(file):
+    stat = os.stat(file)
+    return stat.st_mtime_ns, stat.st_size
 
 
 @functools.lru_cache(maxsize=4)

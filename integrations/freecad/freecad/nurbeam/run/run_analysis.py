@@ -139,8 +139,9 @@ class Run(QtCore.QObject):
         self.lines.append(line)
         if line.severity:
             finding = finding_of(self.case, line.severity, line.where, line.message)
-            self.findings.append(finding)
-            self.told.emit(finding)
+            if finding not in self.findings:  # what the check before has found, the run finds again
+                self.findings.append(finding)
+                self.told.emit(finding)
         elif line.phase:
             self.progressed.emit(line)
 
@@ -202,7 +203,10 @@ def start_run(analysis):
         return None, findings
     run = Run(analysis, case)
     run.findings += [f for f in findings if f.severity != "error"]
-    run.start()
+    try:
+        run.start()
+    except OSError as problem:
+        return None, [*findings, Finding("error", analysis, "Folder", f"the case cannot be written: {problem}")]
     return run, findings
 
 
@@ -211,4 +215,5 @@ def stop_runs_of(document):
     edited_documents.discard(document.Name)
     for (name, _), run in list(Run.running.items()):
         if name == document.Name:
+            run.blockSignals(True)  # whoever listens shows what is no longer there
             run.kill()

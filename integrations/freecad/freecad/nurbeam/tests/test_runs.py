@@ -41,7 +41,7 @@ class Faults(DocumentTest):
         self.expect(self.load, "PlaceLength")
         self.load.PlaceKind = "End"
         self.beam.ExtraKeys = '{"no_such_key": 1}'
-        self.assertTrue(any(obj is self.beam for obj, _ in self.errors()))
+        self.expect(self.beam, "ExtraKeys")
 
     def test_a_place_outside_of_a_support_a_body_and_a_probe(self):
         body = objects.make(objects.SlidingBody, self.document, "body", self.analysis)
@@ -107,6 +107,39 @@ class Runs(DocumentTest):
         self.assertEqual(phases[-1], "ended")
         self.assertIn("equilibrium", phases)
         self.assertEqual(run_analysis.Run.running, {})
+
+    def test_a_run_that_ends_before_its_first_state_leaves_the_result_before(self):
+        self.assertTrue(self.begin().wait(60))
+        result = objects.result_of(self.analysis)
+        before = (result.Times, result.CaseText)
+        self.analysis.AnalysisType = "Buckling"  # of a bar that is only bent
+        self.assertTrue(self.begin().wait(60))
+        self.assertEqual((self.analysis.Status, result.Times, result.CaseText), ("Failed", *before))
+        self.assertIn("nothing buckles", self.analysis.Message)
+
+    def test_modes_are_told_with_their_frequencies(self):
+        self.analysis.AnalysisType, self.analysis.ModeCount = "Modes", 2
+        self.assertTrue(self.begin().wait(60))
+        result = objects.result_of(self.analysis)
+        # (1.87510407 / L)^2 sqrt(EI / (rho A)) / (2 pi) of a cantilever, its second with 4.69409113.
+        wave = (210e9 * 0.005**2 / 4 / 7850) ** 0.5 / (2 * 3.141592653589793)
+        for text, number, root in zip(result.Events, (1, 2), (1.87510407, 4.69409113)):
+            name, frequency, unit = text.rsplit(" ", 2)
+            self.assertEqual((name, unit), (f"mode {number}:", "Hz"))
+            self.assertLess(abs(float(frequency) / (root**2 * wave) - 1), 2e-3)
+
+    def test_a_folder_that_cannot_be_written_is_told(self):
+        self.analysis.Folder = os.path.join(os.devnull, "nowhere")
+        run, findings = run_analysis.start_run(self.analysis)
+        self.assertIsNone(run)
+        self.assertEqual((findings[-1].obj, findings[-1].prop), (self.analysis, "Folder"))
+        self.assertEqual((self.analysis.Status, run_analysis.Run.running), ("Never run", {}))
+
+    def test_a_wrong_extra_key_does_not_disturb_a_recompute(self):
+        self.assertTrue(self.begin().wait(60))
+        self.analysis.ExtraKeys = '{"gravity": 3}'
+        self.document.recompute()
+        self.assertEqual((self.analysis.Status, self.analysis.getStatusString()), ("Out of date", "Valid"))
 
     def test_undo_of_a_run_leads_back_to_what_was_before(self):
         self.document.UndoMode = 1
