@@ -19,6 +19,8 @@ def take_over(fem, analysis):
         made += _beams_of(section, material, analysis, notes)
     beams = objects.members(analysis, objects.Beam)
     analysis.Document.recompute()
+    if not any(_kind(each) == "Fem::ConstraintSelfWeight" for each in fem.Group):
+        analysis.Gravity = 0  # FEM has no weight unless it is asked for
     for constraint in fem.Group:
         if constraint.TypeId == "Fem::ConstraintFixed":
             made += _at_references(constraint, objects.Support, beams, analysis, notes)

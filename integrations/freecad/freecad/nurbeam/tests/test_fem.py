@@ -33,6 +33,7 @@ class Fem(DocumentTest):
         made, notes = take_over(fem, analysis)
         self.document.recompute()
         self.assertEqual(notes, [])
+        self.assertEqual(analysis.Gravity.Value, 0)
         beam, support, load = made
         self.assertEqual((beam.SectionKind, beam.Radius.Value, beam.Material), ("Round", 10, card))
         self.assertEqual((support.SupportKind, support.Beam), ("Clamped", beam))
@@ -42,3 +43,9 @@ class Fem(DocumentTest):
         self.assertEqual(case.keys["beams"][0]["material"], {"density": 7900, "youngs_modulus": 2e11})
         self.assertEqual(case.keys["supports"][0]["at"], {"near": [0, 0, 0]})
         self.assertEqual(case.keys["loads"][0]["at"], {"near": [1, 0, 0]})
+        weight = ObjectsFem.makeConstraintSelfWeight(self.document)
+        weight.Gravity_x, weight.Gravity_y, weight.Gravity_z = 0, -1, 0
+        fem.addObject(weight)
+        weighed = objects.make(objects.Analysis, self.document)
+        take_over(fem, weighed)
+        self.assertEqual((weighed.Gravity.getValueAs("m/s^2").Value, weighed.GravityDirection), (9.81, Vector(0, -1, 0)))
