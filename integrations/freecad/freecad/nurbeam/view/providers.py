@@ -18,8 +18,15 @@ ICON_OF = {
 class Provider:
     """Of objects with values alone."""
 
+    NODE = ""
+    """The attribute that has the node which is shown; "" of an object that shows none."""
+
     def __init__(self, view):
         view.Proxy = self
+        if not hasattr(self, "Object"):  # FreeCAD attaches one view only, here that of a file which had lost its class
+            self.attach(view)
+            if self.NODE:
+                view.RootNode.addChild(getattr(self, self.NODE))
 
     def attach(self, view):
         self.Object = view.Object
@@ -79,10 +86,14 @@ class AnalysisProvider(Provider):
 class SymbolProvider(Provider):
     """Of objects that stand at a place of a beam."""
 
+    NODE = "node"
+
     def attach(self, view):
         super().attach(view)
         self.symbol = symbols.Symbol(view.Object.NurbeamType)
-        view.addDisplayMode(self.symbol.node, "Symbol")
+        self.node = self.symbol.node
+        view.addDisplayMode(self.node, "Symbol")
+        self.updateData(view.Object, "Position")
 
     def getDisplayModes(self, view):
         return ["Symbol"]
@@ -100,6 +111,8 @@ class SymbolProvider(Provider):
 
 class ResultProvider(Provider):
     """Of results: the frame that is shown is its own, so that looking changes no document."""
+
+    NODE = "root"
 
     def attach(self, view):
         super().attach(view)
