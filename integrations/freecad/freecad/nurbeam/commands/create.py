@@ -5,7 +5,7 @@ import FreeCADGui
 
 from .. import objects
 from ..geometry import places
-from ..panels.references import link_of_selection
+from ..panels.references import link_of_selection, tell_what_is_left_out
 from .command import Command, activate, active_analysis
 from .materials import first_material
 
@@ -64,6 +64,7 @@ class NewBeam(NewPart):
         obj.Material = first_material(obj.Document)
         if not link:
             return
+        tell_what_is_left_out()
         obj.Label = f"Beam {link[0].Label}"
         try:
             obj.Axis = link = places.whole_bodies(link)

@@ -3,7 +3,7 @@
 import FreeCADGui
 
 from .. import objects
-from ..panels.results import ResultsPanel, keep_frame
+from ..panels.results import keep_frame
 from .command import Command, active_analysis
 
 
@@ -26,9 +26,7 @@ class Results(OfResult):
     HELP = "The motion of the active analysis, with colours and plots"
 
     def Activated(self):
-        panel = ResultsPanel(active_result())
-        FreeCADGui.Control.showDialog(panel)
-        return panel
+        FreeCADGui.ActiveDocument.setEdit(active_result().Name)
 
 
 class KeepFrame(OfResult):

@@ -6,6 +6,7 @@ import FreeCADGui
 from PySide import QtGui
 
 from ..case.export_case import NoCase, export_case
+from ..run.command import Missing
 from .command import Command, active_analysis
 
 
@@ -55,5 +56,5 @@ class ExportCase(OfAnalysis):
         answer = QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), self.TITLE, question)
         try:
             export_case(active_analysis(), os.path.dirname(file), os.path.basename(file), answer == QtGui.QMessageBox.Yes)
-        except NoCase as problem:
+        except (NoCase, Missing, OSError) as problem:
             QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), self.TITLE, str(problem))

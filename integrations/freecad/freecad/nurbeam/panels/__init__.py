@@ -1,8 +1,11 @@
 """Task panels: one for each kind of object."""
 
 import FreeCADGui
+from PySide import QtGui
 
 from .. import objects
+from ..run.command import Missing
+from ..run.results import NoResults
 
 
 def panel_of(obj):
@@ -21,7 +24,11 @@ def open_panel(obj, prop=""):
     """Opens the panel of an object, at a property where one is named; whether there is one."""
     if FreeCADGui.Control.activeDialog():
         return False
-    panel = panel_of(obj)
+    try:
+        panel = panel_of(obj)
+    except (Missing, NoResults) as problem:
+        QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), obj.Label, str(problem))
+        return False
     if panel is None:
         return False
     FreeCADGui.Control.showDialog(panel)

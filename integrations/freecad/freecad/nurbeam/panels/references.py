@@ -1,5 +1,6 @@
 """Choosing parts of the document in the 3-D view."""
 
+import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
@@ -30,6 +31,14 @@ def link_of_selection():
         return None
     first = chosen[0]
     return first.Object, [name for name in first.SubElementNames if name] or [""]
+
+
+def tell_what_is_left_out():
+    """Where parts of several objects are selected, of which a link takes those of one."""
+    chosen = FreeCADGui.Selection.getSelectionEx("", 0)
+    if len(chosen) > 1:
+        FreeCAD.Console.PrintWarning(f"nurbeam: of what is selected only {chosen[0].Object.Label} is taken; "
+                                     "to take parts of several objects, join them first (Part, Compound)\n")  # fmt: skip
 
 
 class ReferenceList(QtGui.QWidget):
@@ -64,6 +73,7 @@ class ReferenceList(QtGui.QWidget):
         self.end_picking()
         link = link_of_selection()
         if link is not None:
+            tell_what_is_left_out()
             self.set_link(places.whole_bodies(link) if self.prop == "Axis" else link)
 
     def end_picking(self):
@@ -77,4 +87,4 @@ class ReferenceList(QtGui.QWidget):
     def show_link(self):
         self.list.clear()
         for root, path in places.parts_of_link(getattr(self.obj, self.prop)):
-            self.list.addItem(f"{root.Label}.{path}" if path else root.Label)
+            self.list.addItem(f"{root.Label}.{path}".rstrip("."))

@@ -10,6 +10,8 @@ from .parts import PartPanel, words
 
 COLOURS = {"error": "#b00020", "warning": "#a06000"}
 
+FAULTS = "Mend what stands below; a click leads there."
+
 
 class RunPanel(PartPanel):
     def build(self):
@@ -49,8 +51,7 @@ class RunPanel(PartPanel):
         except Missing as problem:
             findings = [Finding("error", self.obj, "Status", str(problem))]
         self.show_findings(findings)
-        if not any(f.severity == "error" for f in findings):
-            self.phase.setText("Nothing is wrong.")
+        self.phase.setText(FAULTS if any(f.severity == "error" for f in findings) else "Nothing is wrong.")
 
     def run(self):
         if self.process:
@@ -62,7 +63,7 @@ class RunPanel(PartPanel):
             self._follow(run)
         self._show_state()
         if not run:
-            self.phase.setText("Not run: first mend what stands below; a click leads there.")
+            self.phase.setText(f"Not run. {FAULTS}")
 
     def _follow(self, run):
         self.document.commitTransaction()  # what was said until now; the run is a step of undo of its own
