@@ -2,7 +2,7 @@
 
 from FreeCAD import Vector
 
-from .feature import Feature, Property
+from .feature import Feature, Property, is_newer
 
 STATES = ("Never run", "Running", "Done", "Interrupted", "Failed", "Out of date")
 
@@ -31,10 +31,23 @@ class Analysis(Feature):
         Property("String", "Message", "Run", "How the last run has ended", output=True),
     )  # fmt: skip
 
+    def onDocumentRestored(self, obj):
+        super().onDocumentRestored(obj)
+        if not is_newer(obj):
+            self.end_lost_run(obj)
+
+    def end_lost_run(self, obj):
+        """A run ends with its document, and redo does not bring it back."""
+        from ..run.run_analysis import is_running
+
+        if obj.Status == "Running" and not is_running(obj):
+            obj.Status, obj.Message = "Interrupted", "its run is no more; run it again"
+
     def compute(self, obj):
         from ..case.write_case import is_same_case, written_case
         from .result import result_of
 
+        self.end_lost_run(obj)
         result = result_of(obj)
         if result is None or obj.Status == "Running":
             return

@@ -32,6 +32,7 @@ class RunPanel(PartPanel):
         for widget in (self.progress, self.phase, self.messages):
             self.layout.addWidget(widget)
         self.process, self.findings = None, []
+        self.obj.Proxy.end_lost_run(self.obj)
         going_on = Run.running.get((self.document.Name, self.obj.Name))
         if going_on:
             self._follow(going_on)

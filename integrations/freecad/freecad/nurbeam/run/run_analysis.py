@@ -97,7 +97,7 @@ class Run(QtCore.QObject):
         self._process.errorOccurred.connect(self._fail)
 
     def start(self):
-        if self.key in Run.running:
+        if is_running(self.analysis):
             raise RuntimeError(f"{self.analysis.Label} is running already; stop it first")
         path = self.case.write_into(self.folder)
         arguments = ["run", path, "--progress", "json", "--out", os.path.join(self.folder, "results")]
@@ -162,7 +162,8 @@ class Run(QtCore.QObject):
         if self._document_is_open() and self.key[0] in edited_documents:
             QtCore.QTimer.singleShot(WAIT_FOR_EDIT, lambda: self._end(code, message))
             return
-        Run.running.pop(self.key, None)
+        if Run.running.get(self.key) is self:
+            del Run.running[self.key]
         try:
             if self._document_is_open():
                 self._keep(code, message)
@@ -173,8 +174,9 @@ class Run(QtCore.QObject):
             self.ended.emit(code)
 
     def _document_is_open(self):
+        """Whether the analysis still stands in its document, and no other one that bears their names."""
         document = FreeCAD.listDocuments().get(self.key[0])
-        return document is not None and document.getObject(self.key[1]) is not None
+        return document is not None and document.getObject(self.key[1]) is self.analysis
 
     def _keep(self, code, message):
         document = self.analysis.Document
@@ -190,9 +192,14 @@ class Run(QtCore.QObject):
         document.commitTransaction()
 
 
+def is_running(analysis):
+    run = Run.running.get((analysis.Document.Name, analysis.Name))
+    return run is not None and run.analysis is analysis
+
+
 def start_run(analysis):
     """(run or None, findings): checks the analysis and, where nothing is wrong, starts its run."""
-    if (analysis.Document.Name, analysis.Name) in Run.running:
+    if is_running(analysis):
         return None, [Finding("error", analysis, "Status", "is running already; stop it first")]
     try:
         case, findings = check(analysis)

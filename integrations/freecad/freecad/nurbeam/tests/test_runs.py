@@ -156,6 +156,17 @@ class Runs(DocumentTest):
         self.assertEqual(self.analysis.Status, "Done")
         self.assertEqual(len(objects.result_of(self.analysis).Times), 1)
 
+    def test_a_document_that_was_saved_during_a_run_is_not_running(self):
+        self.make_long()
+        run = self.begin()
+        self.assertEqual(self.analysis.Status, "Running")
+        name = self.analysis.Name
+        analysis = self.reopened().getObject(name)
+        self.assertEqual(analysis.Status, "Interrupted")
+        run.kill()
+        self.assertTrue(run.wait(20))
+        self.assertEqual((analysis.Status, run_analysis.Run.running), ("Interrupted", {}))
+
     def test_a_run_that_is_stopped_keeps_its_results_until_then(self):
         self.make_long()
         run = self.begin()
