@@ -181,6 +181,7 @@ Loads external_forces(const BeamSystem& system, const State& state) {
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j)
     if (model.beam_of(model.riders[j]).rigid) loads.add(joint_force(system, state, j));
   loads.add(mass_damping_force(system, state));
+  if (model.field) loads.add(state.load * model.field->by_velocity() * momentum(system, state));
   loads.add(force_of_points(system, state) - force_of_points(system, free));
   double length = 0;
   for (const Beam& beam : model.beams) length += beam.curve.length();
