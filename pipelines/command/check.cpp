@@ -123,10 +123,17 @@ void print_sections(std::ostream& out, const BuiltModel& built) {
 }
 
 void print_joints(std::ostream& out, const BeamModel& model) {
-  for (const Rider& joint : model.riders)
-    out << "joint     " << model.bodies[joint.body].name << " ("
-        << text_of(model.bodies[joint.body].mass, size_digits) << " kg) on " << model.beams[joint.beam].name
-        << " at " << place(joint.s) << '\n';
+  for (const Rider& rider : model.riders) {
+    const Body& body = model.bodies[rider.body];
+    const bool is_ring = body.mass == 0;  // of an eyelet or a reel
+    out << (rider.reel ? "reel      "
+            : is_ring  ? "eyelet    "
+                       : "joint     ")
+        << body.name << (is_ring ? "" : " (" + text_of(body.mass, size_digits) + " kg)") << " on "
+        << model.beams[rider.beam].name << " at " << place(rider.s);
+    if (rider.reel) out << ", " << text_of(model.stored_length(rider, rider.s), size_digits) << " m stored";
+    out << '\n';
+  }
   for (const Constraint& constraint : model.constraints)
     if (const auto* joint = std::get_if<BeamJoint>(&constraint))
       out << "joint     " << model.beams[joint->beam_a].name << " at " << place(joint->s_a) << " and "
