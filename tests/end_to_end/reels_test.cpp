@@ -81,6 +81,30 @@ TEST(Reels, AreBraked) {
   EXPECT_NEAR(whole.last("energy.total [J]"), whole.value(0, "energy.total [J]"), 1e-3);
 }
 
+// A drum that a motor has lifted runs back when that stops: the brake, which acts against the motion, turns
+// round with it, with fixed and with adaptive steps. The rope of rho = 1 kg/m hardly stretches: (J + m + rho
+// L) l'' = (m + rho l) g - F - B sgn(l').
+TEST(Reels, AreBrakedAgainstTheWayTheyRun) {
+  constexpr double rho = 1, m = 20, J = 3, L = 9, g = 9.81, brake = 100, stop = 0.5, end = 1.5, h = 1e-5;
+  double l = 4, v = 0;
+  for (int i = 0; i < std::lround(end / h); ++i) {
+    const double pulled = (m + rho * l) * g - (i * h < stop ? 500 : 0);
+    const double way = v != 0 ? (v > 0 ? 1 : -1) : (pulled > 0 ? 1 : -1);
+    const double next = v + h * (pulled - way * brake) / (J + m + rho * L);
+    l += h * (v + next) / 2;
+    v = v * next < 0 ? 0 : next;
+  }
+  for (const char* steps : {R"("step": 1e-3)", R"("tolerance": 1e-6)",
+                            R"("tolerance": 1e-6, "integrator": { "type": "radau" })"}) {
+    const CaseRun run = test::run_text(hanging(
+        R"("stored": 5, "inertia": 3, "friction": { "force": 100 }, "force": [[0, 500], [0.5, 500], [0.500001, 0]])",
+        std::string(R"("initial": "equilibrium", "end_time": 1.5, )") + steps));
+    ASSERT_EQ(run.code, 0) << run.messages;
+    EXPECT_NEAR(run.last("drum.rate [m/s]"), v, 0.01 * v) << steps;
+    EXPECT_NEAR(run.last("drum.out [m]"), l, 0.005) << steps;
+  }
+}
+
 // The known answers of samples/ropes, as its page tells them.
 TEST(Reels, GiveTheSamplesTheirNumbers) {
   const auto of = [](const char* name) {

@@ -14,13 +14,22 @@ namespace nurbeam {
 
 namespace {
 
+// What swings on the spring of a rider's friction [kg]: its body; of a ring, which has no mass, what turns
+// with the beam, and an element of that.
+double swinging_mass(const BeamModel& model, const Rider& rider) {
+  if (const double mass = model.body_of(rider).mass; mass > 0) return mass;
+  const Beam& beam = model.beam_of(rider);
+  return rider.turning_inertia +
+         beam.properties.mass_per_length * beam.curve.length() / beam.home_intervals();
+}
+
 // A body with friction that is slower is at rest [m/s]: it would swing on the spring of its friction by less
 // than places are known.
 double rest_speed(const BeamModel& model, int rider) {
   const Rider& of = model.riders[rider];
   constexpr double round_off = 1e-12;
   return round_off * model.beam_of(of).curve.length() *
-         std::sqrt(model.stick_stiffness(of) / model.body_of(of).mass);
+         std::sqrt(model.stick_stiffness(of) / swinging_mass(model, of));
 }
 
 // Memory of a body that slides one way, with the spring stretched up to the bound, which follows the forces.
