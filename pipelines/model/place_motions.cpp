@@ -64,7 +64,8 @@ void check_motion(const CasePlaceMotion& from, const MovedPlace& place, const Ro
 }
 
 // The motion at a constant speed, to where it must end or for twice as long as the analysis: with it the
-// place would stand still at its end. The speed is reached evenly within the ramp.
+// place would stand still at its end. The speed is reached evenly within the ramp; as many rows behind it
+// keep the curve through them straight from there on.
 TimeTable steady_motion(const CasePlaceMotion& motion, const MovedPlace& place, double end_time) {
   const double speed = place.sense * *motion.speed, s = place.s, ramp = motion.ramp;
   const double end = place.curve->closed() ? s + speed * (2 * end_time + ramp)
@@ -75,8 +76,8 @@ TimeTable steady_motion(const CasePlaceMotion& motion, const MovedPlace& place, 
   if (ramp == 0) return {{0, s}, {way, end}};
   constexpr int parts = 32;
   TimeTable rows;
-  for (int i = 0; i <= parts; ++i) {
-    const double t = ramp * i / parts, covered = t * t / (2 * ramp);
+  for (int i = 0; i <= 2 * parts; ++i) {
+    const double t = ramp * i / parts, covered = i < parts ? t * t / (2 * ramp) : t - ramp / 2;
     if (covered >= way) break;
     rows.emplace_back(t, s + speed * covered);
   }

@@ -105,6 +105,16 @@ TEST(Reels, AreBrakedAgainstTheWayTheyRun) {
   }
 }
 
+// Behind the ramp the speed stays what was asked for.
+TEST(Reels, KeepTheSpeedThatARampReaches) {
+  const CaseRun run = test::run_text(hanging(R"("stored": 30, "motion": { "speed": 1.5, "ramp": 0.4 })",
+                                             R"("initial": "equilibrium", "step": 1e-3, "end_time": 2)"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("drum.out [m]"), 4 + 1.5 * (2 - 0.4 / 2), 1e-6);
+  EXPECT_NEAR(run.last("drum.rate [m/s]"), 1.5, 1e-6);
+  EXPECT_FALSE(run.says("blow")) << run.messages;
+}
+
 // The known answers of samples/ropes, as its page tells them.
 TEST(Reels, GiveTheSamplesTheirNumbers) {
   const auto of = [](const char* name) {
