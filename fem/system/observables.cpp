@@ -1,5 +1,6 @@
 #include "fem/system/observables.h"
 
+#include "fem/forces/field_on_point.h"
 #include "fem/mesh/grip_position.h"
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
@@ -111,10 +112,13 @@ Eigen::Vector3d joint_force(const BeamSystem& system, const State& state, int ri
   const Mesh& mesh = system.mesh();
   if (mesh.plan.modes[rider] == Carried::free) return Eigen::Vector3d::Zero();
   const int body = system.model().riders[rider].body;
-  const Eigen::Vector3d given = with_assembly(
-      system, [&]<int D>(const Assembly<D>& a) { return widened<D>(a.force_on_body(body, state)); });
+  const double mass = system.model().bodies[body].mass;
+  const Eigen::Vector3d given = with_assembly(system, [&]<int D>(const Assembly<D>& a) {
+    return widened<D>(a.force_on_body(body, state) +
+                      mass * field_on_point<D>(system.model(), state, mesh.bodies[body]));
+  });
   const Eigen::Vector3d acceleration = vector_at(system, state.a, mesh.bodies[body]);
-  return system.model().bodies[body].mass * (acceleration - system.model().gravity) - given;
+  return mass * (acceleration - system.model().gravity) - given;
 }
 
 namespace {

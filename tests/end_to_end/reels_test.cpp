@@ -115,6 +115,27 @@ TEST(Reels, KeepTheSpeedThatARampReaches) {
   EXPECT_FALSE(run.says("blow")) << run.messages;
 }
 
+// In a frame that turns the body at the rope's end pulls with its weight and its centrifugal force.
+TEST(Frames, AddToTheForceOfABodyOnItsBeam) {
+  const CaseRun run = test::run_text(hanging(R"("stored": 5)", R"("type": "static")",
+                                             R"(, "frame": { "rate": [0, 0, 2], "about": [-3, 0, 0] })"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  const double radius = run.last("load.x [m]") + 3;
+  EXPECT_GT(radius, 4);
+  EXPECT_NEAR(run.last("load.joint_force.x [N]"), -20 * 4 * radius, 1e-6 * 80 * radius);
+  EXPECT_NEAR(run.last("load.joint_force.z [N]"), 20 * 9.81, 1e-3);
+  const CaseRun bead =
+      test::run_text(R"({ "nurbeam": 1, "gravity": [0, 0, 0], "frame": { "rate": [0, 0, 1.5] },
+    "beams": [{ "name": "rail", "rigid": true, "axis": { "polyline": [[0, 0, 0], [20, 0, 0]] } }],
+    "bodies": [{ "name": "bead", "mass": 2 }],
+    "sliding_joints": [{ "body": "bead", "beam": "rail", "at": { "length": 0.5 } }],
+    "analysis": { "end_time": 1, "step": 1e-3 }, "output": { "report": false } })");
+  ASSERT_EQ(bead.code, 0) << bead.messages;
+  EXPECT_NEAR(bead.last("bead.vx [m/s]"), 0.5 * 1.5 * std::sinh(1.5), 1e-5);
+  EXPECT_NEAR(bead.last("bead.joint_force.y [N]"), 2 * 2 * 1.5 * bead.last("bead.vx [m/s]"),
+              1e-4);  // Coriolis
+}
+
 // The known answers of samples/ropes, as its page tells them.
 TEST(Reels, GiveTheSamplesTheirNumbers) {
   const auto of = [](const char* name) {
