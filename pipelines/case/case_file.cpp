@@ -119,6 +119,10 @@ CaseReel read_reel(const Json& json, const std::string& path, Findings& findings
                    std::any_of(reel.motion.table.begin(), reel.motion.table.end(), takes_in)))
     findings.error(child(path, "motion"),
                    "takes rope in, which a spool cannot; pay out alone, or give \"feed\": \"drum\"");
+  if (is_spool && std::ranges::any_of(reel.force, [](const auto& row) { return row.second > 0; }))
+    findings.error(child(path, "force"),
+                   "takes rope in, which a spool cannot; let \"friction\" hold it back, or give \"feed\": "
+                   "\"drum\"");
   return reel;
 }
 

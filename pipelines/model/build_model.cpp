@@ -518,6 +518,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
   set_flows(resolved, built.model, findings);
+  warn_of_blows(resolved, built.model, findings);
   built.slopes = decide_slopes(resolved, beams, held, joined, built.frame, interrupted,
                                like ? &like->slopes : nullptr, built.model, findings);
   if (findings.has_errors()) return {};

@@ -15,6 +15,9 @@ namespace nurbeam {
 
 namespace {
 
+// Part of the greatest speed of a motion by which its speed may jump at the start without a word.
+constexpr double unnoticed_jump = 0.01;
+
 std::string end_name(const CaseReel& reel) { return reel.at_start ? "start" : "end"; }
 
 // What a beam that is wound up must be.
@@ -22,7 +25,6 @@ void check_beam(const CaseReel& reel, const CaseBeam& from, const Beam& beam, Fi
   const auto refuse = [&](const std::string& reason) {
     findings.error(reel.path + ".beam", "is " + in_quotes(reel.beam) + ", " + reason);
   };
-  if (beam.rigid) return refuse("a rigid guide, which is not wound up; name an elastic beam");
   if (beam.is_ring()) return refuse("a ring, which has no end; name an open beam");
   if (beam.has_torsion())
     refuse("a beam with torsion, whose sections a reel would hold; give the beam \"torsion\": false");
@@ -60,7 +62,8 @@ void check_loads(const CaseReel& reel, const ResolvedCase& resolved, Findings& f
                                     in_quotes(reel.name) + "; give loads at places, or leave it out");
 }
 
-// Elements stand between the mouth and what it comes to: how far it can take in, as a place of the beam [m].
+// An element stands between the mouth and what it comes to: how far it can take in, as a place of the beam
+// [m]. A mouth that starts nearer takes in no more than what it pays out.
 double farthest(const Rider& mouth, const std::vector<double>& held, const BeamModel& model) {
   const Beam& beam = model.beam_of(mouth);
   const double way = mouth.reel->sense(), other_end = way > 0 ? beam.curve.end() : beam.curve.start();
@@ -69,12 +72,17 @@ double farthest(const Rider& mouth, const std::vector<double>& held, const BeamM
     if (way * (place - mouth.s) > 0 && way * (nearest - place) > 0) nearest = place;
   };
   for (const double place : held) look(place);
+  for (const Rider& other : model.riders)
+    if (other.beam == mouth.beam && other.motion && other.motion->rows() &&
+        other.motion->rows()->steepest() == 0)
+      look(other.s);  // a body that is fastened there
   for (const Force& force : model.forces) {
     if (const auto* load = std::get_if<PointLoad>(&force); load && load->beam == mouth.beam) look(load->s);
     if (const auto* moment = std::get_if<Moment>(&force); moment && moment->beam == mouth.beam)
       look(moment->s);
   }
-  return nearest - way * beam.home_spacing(nearest);
+  const double before = nearest - way * beam.home_spacing(nearest);
+  return way * (before - mouth.s) > 0 ? before : mouth.s;
 }
 
 // Stretch and strain energy per length of rope that was wound under a tension.
@@ -139,6 +147,11 @@ void add_reels(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
   for (const CaseReel& reel : resolved.reels) {
     const int b = resolved.beam_index(reel.beam);
     Beam& beam = model.beams[b];
+    if (beam.rigid) {
+      findings.error(reel.path + ".beam", "is " + in_quotes(reel.beam) +
+                                              ", a rigid guide, which is not wound up; name an elastic beam");
+      continue;
+    }
     const double s = reel.at_start ? 0 : beams[b].measured.length();
     check_end(reel, s, held[b], model, b, findings);
     check_loads(reel, resolved, findings);
@@ -178,6 +191,30 @@ void add_reels(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
     if (!reel.leave_at_empty)
       model.stops.push_back({.rider = rider, .place = empty, .from_below = !reel.at_start});
   }
+}
+
+void warn_of_blows(const ResolvedCase& resolved, const BeamModel& model, Findings& findings) {
+  if (resolved.analysis.type != CaseAnalysis::Type::dynamic) return;
+  const auto look = [&](const std::string& path, const std::string& name) {
+    const auto rider =
+        std::ranges::find_if(model.riders, [&](const Rider& any) { return model.body_of(any).name == name; });
+    if (rider == model.riders.end() || !rider->motion || !rider->motion->rows()) return;
+    const Beam& beam = model.beam_of(*rider);
+    const double speed = rider->motion->at(0).speed,
+                 jump = std::abs(speed - (beam.flow != 0 ? -beam.flow : rider->speed));
+    if (jump <= unnoticed_jump * rider->motion->rows()->steepest()) return;
+    const BeamProperties& properties = beam.properties;
+    const double blow = jump * std::sqrt(properties.axial_stiffness * properties.mass_per_length);
+    findings.warn(path + ".motion",
+                  "starts at " + text_of(std::abs(speed), 4) + " m/s at once, and beam " +
+                      in_quotes(beam.name) + " at " + text_of(std::abs(rider->speed), 4) +
+                      " m/s: a blow of " + text_of(blow, 4) +
+                      " N, the change of speed times the mass per length and the speed of sound; give it a "
+                      "\"ramp\" or rows that begin at rest, or the beam that speed \"along\" in its "
+                      "\"initial\" \"velocity\"");
+  };
+  for (const CaseEyelet& eyelet : resolved.eyelets) look(eyelet.path, eyelet.name);
+  for (const CaseReel& reel : resolved.reels) look(reel.path, reel.name);
 }
 
 }  // namespace nurbeam

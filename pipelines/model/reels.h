@@ -23,4 +23,8 @@ void add_reels(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
                const std::vector<std::vector<double>>& held, const ModelFrame& frame, BeamModel& model,
                Findings& findings);
 
+/// Warns of reels and eyelets whose motion begins at a speed that the beam does not have: a blow of rho c v
+/// [N].
+void warn_of_blows(const ResolvedCase& resolved, const BeamModel& model, Findings& findings);
+
 }  // namespace nurbeam

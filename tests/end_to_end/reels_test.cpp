@@ -115,6 +115,39 @@ TEST(Reels, KeepTheSpeedThatARampReaches) {
   EXPECT_FALSE(run.says("blow")) << run.messages;
 }
 
+// A support that is nearer to the mouth than an element is taken in no farther than it is drawn.
+TEST(Reels, MayStartNearASupport) {
+  const CaseRun run = test::run_text(
+      hanging(R"("stored": 5, "inertia": 1, "force": 400)", motion_until(0.2),
+              R"(, "supports": [{ "beam": "rope", "at": { "length": 0.1 }, "type": "pinned" }])"));
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("drum.out [m]"), 4, 1e-4);
+  EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 1e-3);
+}
+
+// What is fastened to the rope is not wound up either.
+TEST(Reels, StopBeforeAFastenedBody) {
+  std::string text = hanging(R"("stored": 5, "inertia": 1, "force": 450)", motion_until(1.5));
+  const std::string load = R"({ "name": "load")";
+  text.insert(text.find(load),
+              R"({ "name": "knot", "mass": 1, "fastened": { "beam": "rope", "at": { "length": 2 } } }, )");
+  const CaseRun run = test::run_text(text);
+  ASSERT_EQ(run.code, 0) << run.messages;
+  EXPECT_NEAR(run.last("drum.out [m]"), 4 - 2 + 0.5, 0.02);
+}
+
+// A speed that is there at once is a blow of rho c v.
+TEST(Reels, WarnOfBlows) {
+  const auto with = [](const std::string& motion) {
+    return test::run_text(hanging(R"("stored": 5, "motion": )" + motion,
+                                  R"("initial": "equilibrium", "step": 1e-4, "end_time": 1e-3)"));
+  };
+  const CaseRun at_once = with(R"({ "speed": 0.5 })");
+  EXPECT_TRUE(at_once.says("a blow of 2236 N")) << at_once.messages;  // 0.5 sqrt(2e7 N 1 kg/m)
+  const CaseRun at_rest = with(R"({ "table": [[0, 0], [1, 1], [2, 4], [3, 9]] })");
+  EXPECT_FALSE(at_rest.says("blow")) << at_rest.messages;
+}
+
 // In a frame that turns the body at the rope's end pulls with its weight and its centrifugal force.
 TEST(Frames, AddToTheForceOfABodyOnItsBeam) {
   const CaseRun run = test::run_text(hanging(R"("stored": 5)", R"("type": "static")",
@@ -185,6 +218,8 @@ TEST(Reels, TellWhatTheyCannotTakeIn) {
   says(refused(hanging(R"("stored": 5, "feed": "spool", "inertia": 3)", motion)), "a spool does not turn");
   says(refused(hanging(R"("stored": 5, "feed": "spool", "motion": { "speed": -1 })", motion)),
        "takes rope in, which a spool cannot");
+  says(refused(hanging(R"("stored": 5, "feed": "spool", "force": 10)", motion)),
+       "takes rope in, which a spool cannot; let");
   says(refused(hanging(R"("stored": 5, "pickup": 2)", motion)), "is of a spool");
   says(refused(hanging(R"("stored": 5, "friction": { "force": 3, "law": "capstan" })", motion)),
        "the only law for a reel");
@@ -193,6 +228,23 @@ TEST(Reels, TellWhatTheyCannotTakeIn) {
   says(refused(hanging(R"("stored": 5)", motion,
                        R"(, "loads": [{ "beam": "rope", "force_per_length": [1, 0, 0] }])")),
        "part of which is on the reel");
+  says(refused(R"({ "nurbeam": 1, "beams": [{ "name": "rail", "rigid": true,
+      "axis": { "polyline": [[0, 0, 0], [0, 0, -4]] } }],
+    "reels": [{ "name": "drum", "beam": "rail", "end": "start", "stored": 5 }],
+    "analysis": { "end_time": 1, "step": 1e-3 } })"),
+       "a rigid guide, which is not wound up");
+}
+
+TEST(Reels, AreToldByCheck) {
+  const test::TemporaryDirectory directory;
+  std::ostringstream out, err;
+  const std::string file =
+      directory.write("case.json", hanging(R"("stored": 5, "force": 100)", motion)).string();
+  EXPECT_EQ(run_command_line({"check", file}, out, err), 0) << err.str();
+  EXPECT_NE(
+      out.str().find("reel      drum at the start of rope: a drum, 4 m out, 5 m stored, driven by a force"),
+      std::string::npos)
+      << out.str();
 }
 
 }  // namespace
