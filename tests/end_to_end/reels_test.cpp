@@ -235,6 +235,22 @@ TEST(Reels, TellWhatTheyCannotTakeIn) {
        "a rigid guide, which is not wound up");
 }
 
+TEST(Reels, CountAsOutWhatIsOnNeither) {
+  std::string text = hanging(R"("stored": 5, "motion": { "speed": 1, "ramp": 0.1 })", motion_until(0.5));
+  const std::string bodies =
+      R"("bodies": [{ "name": "load", "mass": 20, "fastened": { "beam": "rope", "at": "end" } }],)";
+  text.erase(text.find(bodies), bodies.size());
+  text.insert(text.find(R"({ "name": "drum")"),
+              R"({ "name": "low", "beam": "rope", "end": "end", "stored": 3, "motion": { "speed": 0 } }, )");
+  const CaseRun run = test::run_text(text);
+  ASSERT_EQ(run.code, 0) << run.messages;
+  for (const char* reel : {"drum", "low"}) {
+    EXPECT_NEAR(run.value(0, std::string(reel) + ".out [m]"), 4, 1e-9);
+    EXPECT_NEAR(run.last(std::string(reel) + ".out [m]"), 4.45, 1e-9);
+  }
+  EXPECT_NEAR(run.last("low.stored [m]"), 3, 1e-9);
+}
+
 TEST(Reels, AreToldByCheck) {
   const test::TemporaryDirectory directory;
   std::ostringstream out, err;

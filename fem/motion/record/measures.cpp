@@ -132,6 +132,18 @@ double tension_at_mouth(const BeamSystem& system, const State& state, int rider)
   return tension_beside(system, state, rider, system.model().riders[rider].reel->at_start ? 1 : 0);
 }
 
+// The reference length of a beam that is on none of its reels [m].
+double length_out(const BeamSystem& system, const State& state, int beam) {
+  const BeamModel& model = system.model();
+  double length = model.beams[beam].curve.length();
+  for (std::size_t j = 0; j < model.riders.size(); ++j) {
+    const int place = system.mesh().riders[j].place;
+    if (model.riders[j].beam == beam && model.riders[j].reel && place >= 0)
+      length -= model.stored_length(model.riders[j], state.q[place]);
+  }
+  return length;
+}
+
 Extreme at_ring(const BeamSystem& system, const State& state, const AtRing& of) {
   using enum AtRing::Quantity;
   const int place = system.mesh().riders[of.rider].place;
@@ -152,7 +164,7 @@ Extreme at_ring(const BeamSystem& system, const State& state, const AtRing& of) 
       case stored:
         return system.model().stored_length(rider, s);
       case out:
-        return curve.length() - system.model().stored_length(rider, s);
+        return length_out(system, state, rider.beam);
       case rate:
         return -rider.reel->sense() * v;
       case power: {
