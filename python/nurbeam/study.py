@@ -213,9 +213,9 @@ def vary(
     reasons = []
     for i, row in enumerate(rows):
         variant = model.copy()
-        for path, value in zip(variables, row):
-            variant.set(path, value.item() if isinstance(value, np.generic) else value)
         try:
+            for path, value in zip(variables, row):
+                variant.set(path, value.item() if isinstance(value, np.generic) else value)
             results = variant.run(**analysis)
         except (CaseError, RunError) as problem:
             reasons.append(f"variant {i}: {problem}")
