@@ -89,11 +89,12 @@ def answer(directory):
     return found
 
 
-def half_files(directory, good, histories):
-    """Files under their final names that are not whole."""
+def half_files(directory, good, histories, before):
+    """Files under their final names that are not whole. Those that are as a run before has left them are: the last frame of
+    one that was stopped is of that moment, which the run that goes on from there does not have."""
     wrong = []
     for name, file in files_of(directory).items():
-        if name.endswith(".part") or name in ("run.log", "study.rows"):
+        if name.endswith(".part") or name in ("run.log", "study.rows") or digest(file) == before.get(name):
             continue
         if name.endswith(".nc") and not name.endswith("study.nc"):
             whole = has_its_checksum(file)
@@ -125,6 +126,7 @@ class Scenario:
     def __init__(self, name, words, again=None, before=None, program="nurbeam"):
         self.name, self.words, self.again, self.before, self.program = name, words, again, before, program
         self.here = scratch / name / "here"
+        self.left = {name: digest(file) for name, file in files_of(before).items()} if before else {}
 
     def fresh(self):
         shutil.rmtree(self.here.parent, ignore_errors=True)
@@ -199,7 +201,7 @@ def disturbed(scenario, good, kind, calls, number, sticky):
     is_told = "--resume" in said  # a study says which variants the machine ended
     if code == 0 and not is_told and answer(scenario.here) != good:
         wrong("silent: exit 0 without all results")
-    if half := half_files(scenario.here, good, scenario.histories) if scenario.here.exists() else []:
+    if half := half_files(scenario.here, good, scenario.histories, scenario.left) if scenario.here.exists() else []:
         wrong(f"half files: {half}")
     if not scenario.again:
         return
