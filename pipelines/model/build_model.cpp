@@ -30,6 +30,7 @@
 #include "pipelines/model/join_beams.h"
 #include "pipelines/model/law_points.h"
 #include "pipelines/model/loads.h"
+#include "pipelines/model/mass_fields.h"
 #include "pipelines/model/measures.h"
 #include "pipelines/model/pipe_bends.h"
 #include "pipelines/model/reels.h"
@@ -380,35 +381,6 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
   return beams;
 }
 
-// What acts on mass, in the model's own axes.
-MassField field_in(MassField field, const ModelFrame& frame) {
-  field.rate = frame.moment_to_local(field.rate);
-  field.about = frame.to_local(field.about);
-  field.centre = frame.to_local(field.centre);
-  if (field.radial) field.radial = frame.direction_to_local(*field.radial);
-  return field;
-}
-
-void check_field(const ResolvedCase& resolved, Findings& findings) {
-  const bool turns = !resolved.field->rate.isZero(0);
-  const std::string key = turns ? "frame" : "gravity";
-  if (resolved.analysis.has_modes())
-    findings.error("analysis.type",
-                   "looks for modes or buckling, which are not known in a frame that turns and "
-                   "near a point that attracts; leave \"" +
-                       key + "\" out, or run a motion");
-  for (const CaseBeam& beam : resolved.beams)
-    if (beam.torsion)
-      findings.error(beam.path + ".torsion",
-                     "is true, but the sections of a beam with torsion do not feel \"" + key +
-                         "\"; give \"torsion\": false, or leave \"" + key + "\" out");
-  constexpr double far = 1e6;  // [m]
-  if (!turns && resolved.field->centre.norm() > far)
-    findings.warn("gravity.centre", "is " + text_of(resolved.field->centre.norm(), 3) +
-                                        " m away: positions lose so many digits that strains are round-off; "
-                                        "tell all in a \"frame\" that goes round with it");
-}
-
 // Adds supports and elements. Per beam the places that need a node, in reference arc length [m].
 std::vector<std::vector<double>> divide_beams(const ResolvedCase& resolved,
                                               const std::vector<DrawnBeam>& beams, const JoinedBeams& joined,
@@ -487,10 +459,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.model.dimension = built.frame.dimension;
   built.model.gravity = built.frame.direction_to_local(resolved.gravity);
   built.model.air = {resolved.air.density, built.frame.direction_to_local(resolved.air.wind)};
-  if (resolved.field) {
-    check_field(resolved, findings);
-    built.model.field = field_in(*resolved.field, built.frame);
-  }
+  built.model.field = mass_field(resolved, built.frame, findings);
   const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, like, built, findings);
   if (findings.has_errors()) return {};
 
