@@ -13,7 +13,7 @@ BeamSystem running_beam(bool with_rider) {
   ModelBuilder builder(D);
   const int beam = add_bent_beam(builder, D);
   const double length = builder.beam(beam).curve.length();
-  if (with_rider) builder.slide(builder.add_body("body", 0.8), beam, 0.43 * length);
+  if (with_rider) builder.slide(builder.add_body("body", 0.8), beam, 0.43 * length).continuous_slope = false;
   builder.beam(beam).flow = speed;
   BeamModel model = builder.build();
   model.runs_at_rest = true;
