@@ -34,6 +34,12 @@ TEST(FrictionLaw, SlidesAgainstTheCoefficientTimesTheForceAcross) {
   EXPECT_NEAR(rubbing.at(level(-10, 0, -4), {0, 0, -1}).along, 3 + 2 * 4, 1e-12);
 }
 
+TEST(FrictionLaw, TheQuadraticPartIsAgainstTheMotionBothWays) {
+  const Rubbing rubbing({.coefficient = 0.3, .viscous = 2, .quadratic = 0.5});
+  EXPECT_NEAR(rubbing.at(level(10, 0, 4), {0, 0, 1}).along, -3 - 2 * 4 - 0.5 * 16, 1e-12);
+  EXPECT_NEAR(rubbing.at(level(-10, 0, -4), {0, 0, -1}).along, 3 + 2 * 4 + 0.5 * 16, 1e-12);
+}
+
 TEST(FrictionLaw, SticksAsASpringUpToTheStaticBound) {
   const Rubbing rubbing({.coefficient = 0.3, .static_coefficient = 0.5, .force = {{0, 1}, {2, 3}}});
   const FrictionForce held = rubbing.at(level(10, 0.004), {0.001, 0, 0});
@@ -116,8 +122,11 @@ TEST(FrictionLaw, HasTheDerivativesOfItsForce) {
   for (const Friction::Law law : {Friction::Law::coulomb, Friction::Law::capstan, Friction::Law::bearing})
     for (const int slides : {1, -1, 0})
       for (const bool kink : {false, true}) {
-        const Rubbing rubbing(
-            {.coefficient = 0.3, .law = law, .force_over = {{0, 1}, {0.5, 30}}, .viscous = 2});
+        const Rubbing rubbing({.coefficient = 0.3,
+                               .law = law,
+                               .force_over = {{0, 1}, {0.5, 30}},
+                               .viscous = 2,
+                               .quadratic = 1.5});
         const auto any = [&](int size) { return testing::random_vector(size, random); };
         FrictionPoint at = level(slides == 0 ? 1000 : 10, 1e-3, slides == 0 ? 0.01 : 4 * slides);
         at.force += any(3);
