@@ -35,7 +35,7 @@ inline Fields<CaseReel> reel_fields() {
                        "the end of the beam at which it is")
               .needed(),
           field(&R::stored, "stored", quantity(Dimension::length, plausible(0, 1e6)),
-                "unstressed length that is on it at the start, besides the beam as drawn")
+                "unstressed length on it at the start, in addition to the reference curve")
               .needed(),
           choice_field(
               &R::feed, "feed", {{"drum", Reel::Feed::drum}, {"spool", Reel::Feed::spool}},
@@ -55,7 +55,7 @@ inline Fields<CaseReel> reel_fields() {
               "acceleration, at rest at the first and the last; it stands when omitted"),
           field(&R::on, "on", name(), "the body that carries it, whose `mass` is without rope"),
           place_motion_field(&R::motion, "the length that it has paid out, from 0 on",
-                             "drives it; pays out where it is positive"),
+                             "prescribed motion, positive where it pays out"),
           field(
               &R::force, "force", constant_or_table(Dimension::force, plausible(-1e12, 1e12)),
               "with which it takes in, or that over time: the torque of a motor over the radius of the drum"),
@@ -74,8 +74,7 @@ inline Fields<CaseReel> reel_fields() {
               .otherwise("stop"),
           field(
               &R::direction, "direction", vector(Dimension::number),
-              "of a mouth that holds the direction of the beam too, as a guide tube: along the beam, towards its "
-              "end; free when omitted"),
+              "of a mouth that also fixes the direction of the beam, as a tube does: along the beam, towards its end; free when omitted"),
       },
       {{{"path", "on"}, false}, {{"motion", "force"}, false}}};
 }
