@@ -108,7 +108,8 @@ std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, co
       std::to_string(run.cut_steps) + " of " + std::to_string(run.steps) + " steps were shorter, down to " +
           text_of(run.shortest_cut, 3) +
           " s: a body that is carried as a node slides over a fifth of the element beside it in a step, at "
-          "most (three tenths with \"radau\"); longer elements or \"carried_as\": \"point\" leave steps as long as asked for"};
+          "most (three tenths with \"radau\"); longer elements or \"carried_as\": \"point\" leave steps as "
+          "long as asked for"};
 }
 
 std::vector<Diagnostic> given_up_node_notes(const std::filesystem::path& file, const SimulationReport& run,
@@ -122,7 +123,8 @@ std::vector<Diagnostic> given_up_node_notes(const std::filesystem::path& file, c
              model.beam_of(joint).name +
              "\", a mesh adaptation beside its node would have changed the energy by " +
              text_of(point.energy, 3) +
-             " J: from there on the body is a point of a fixed mesh, which conserves it; with more elements the "
+             "J: from there on the body is a point of a fixed mesh, which conserves it; with more elements "
+             "the "
              "node can stay, and \"carried_as\": \"point\" has none from the start"});
   }
   return notes;
@@ -132,7 +134,8 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
   if (!run.diverges) return {};
   return Diagnostic{
       Severity::warning, file.string() + ": loads",
-      "the equilibrium is unstable, and no stable one was found: loads that follow the section and moments in "
+      "the equilibrium is unstable, and no stable one was found: loads that follow the section and moments "
+      "in "
       "space have no energy with a minimum; a damped dynamic analysis shows where the model goes"};
 }
 

@@ -57,7 +57,8 @@ inline Fields<Orientation> orientation_fields() {
                       }),
           field_by<O>(
               "start", vector(Dimension::number),
-              "direction of the y axis at the start; from there sections do not twist; z, or x where the beam starts along z, when omitted",
+              "direction of the y axis at the start; from there sections do not twist; z, or x where the "
+              "beam starts along z, when omitted",
               [](const Json& json, const std::string&, O& to, Findings&) { take(json, to.direction); }),
           field_by<O>("frenet", boolean(), "it points to the centre of curvature everywhere",
                       [](const Json& json, const std::string&, O& to, Findings&) {
@@ -116,7 +117,10 @@ inline Fields<CaseBeam> beam_fields() {
               .otherwise("reference"),
           field(
               &B::torsion, "torsion", boolean(),
-              "the beam bends about its section's own axes and twists, in space; when omitted true with `orientation` or `second_moments`, and, where `stress_free` does not say \"straight\", where the axis is curved in space, where a profile in space has I_x other than I_y, and where a support, joint, load or body needs its sections"),
+              "the beam bends about its section's own axes and twists, in space; when omitted true with "
+              "`orientation` or `second_moments`, and, where `stress_free` does not say \"straight\", where "
+              "the axis is curved in space, where a profile in space has I_x other than I_y, and where a "
+              "support, joint, load or body needs its sections"),
           object_field(&B::orientation, "orientation", orientation_fields(),
                        "orientation of the sections of a beam with torsion"),
           choice_field(
@@ -132,16 +136,21 @@ inline Fields<CaseBeam> beam_fields() {
           choice_field(
               &B::axial_strain, "axial_strain",
               {{"ends-and-mean", AxialStrain::ends_and_mean}, {"pointwise", AxialStrain::pointwise}},
-              "the assumed axial strain: the quadratic with the end values and the mean of the strain in an element, or the strain at every point, as in the papers, which locks in slender beams; when omitted ends-and-mean, but pointwise with constant weights, without metric and with form virtual-work"),
+              "the assumed axial strain: the quadratic with the end values and the mean of the strain in an "
+              "element, or the strain at every point, as in the papers, which locks in slender beams; when "
+              "omitted ends-and-mean, but pointwise with constant weights, without metric and with form "
+              "virtual-work"),
           field(&B::tension, "tension", quantity(Dimension::force, plausible(-1e12, 1e12)),
                 "axial force in the reference configuration; negative: compression of a beam that bends")
               .otherwise("0"),
           field(
               &B::unstressed_length, "unstressed_length", quantity(Dimension::length, positive()),
-              "length of the beam without stress; the reference curve is then where the analysis starts, and its shape, scaled to this length, is stress-free; the length of the reference curve when omitted"),
-          field(
-              &B::temperature, "temperature", constant_or_table(Dimension::temperature, kelvin),
-              "difference of temperature from the state of the unstressed length, or that over time; needs material.thermal_expansion"),
+              "length of the beam without stress; the reference curve is then where the analysis starts, "
+              "and its shape, scaled to this length, is stress-free; the length of the reference curve when "
+              "omitted"),
+          field(&B::temperature, "temperature", constant_or_table(Dimension::temperature, kelvin),
+                "difference of temperature from the state of the unstressed length, or that over time; needs "
+                "material.thermal_expansion"),
           field_by<B>("initial", initial, "how it moves at time 0; at rest when omitted",
                       [](const Json& json, const std::string& path, B& beam, Findings& findings) {
                         if (const Json* velocity = value_under(json, "velocity"))
@@ -160,7 +169,8 @@ inline Fields<CaseBeam> beam_fields() {
                {"smooth", Corners::smooth},
                {"rigid", Corners::rigid},
                {"hinge", Corners::hinge}},
-              "treatment of a corner of the axis; smooth: rounded, if small; rigid: a frame that conserves the angle")
+              "treatment of a corner of the axis; smooth: rounded, if small; rigid: a frame that conserves "
+              "the angle")
               .otherwise("error"),
           field_by<B>("smooth_up_to", quantity(Dimension::angle, {.lower = 0, .upper = 45, .open = true}),
                       "largest corner that is rounded; when omitted 5 with smooth, else none",

@@ -55,9 +55,9 @@ inline Fields<CaseCollector> collector_fields() {
                 "from the base up; the last is the head. Each moves along `up` alone, and has no weight: "
                 "`force` is what is left of the lift")
               .needed(),
-          field(
-              &C::stiffness, "stiffness", list(quantity(Dimension::stiffness, plausible(0, 1e16))),
-              "of the springs below each mass, the first one to the base; they have no force where all masses are at the height of the reference wire at the start")
+          field(&C::stiffness, "stiffness", list(quantity(Dimension::stiffness, plausible(0, 1e16))),
+                "of the springs below each mass, the first one to the base; they have no force where all "
+                "masses are at the height of the reference wire at the start")
               .needed(),
           field(&C::damping, "damping", list(quantity(Dimension::damping, plausible(0, 1e16))),
                 "of the dampers beside the springs; none when omitted"),
@@ -99,9 +99,9 @@ inline Fields<CaseCollector> collector_fields() {
               .otherwise("20"),
           field(&C::bands, "bands", array(pair(quantity(Dimension::number, frequencies))),
                 "more statistics: of the force between two frequencies in Hz each, by the same filter"),
-          field(
-              &C::uplift, "uplift", array(name()),
-              "names of probes whose largest displacement along `up` since the start is reported, as of a wire at its supports"),
+          field(&C::uplift, "uplift", array(name()),
+                "names of probes whose largest displacement along `up` since the start is reported, as of a "
+                "wire at its supports"),
       },
       {}};
 }

@@ -30,12 +30,13 @@ inline Fields<CaseElements> elements_fields() {
                 "maximum length of an element"),
           field(&E::per_segment, "per_segment", integer(count),
                 "elements per cubic segment of the axis, cut at the supports"),
-          field(
-              &E::tolerance, "tolerance", quantity(Dimension::number, tolerance),
-              "error of positions over the length of the beam, for which as many elements are made as needed; estimated in the static state with bodies locked at their start"),
+          field(&E::tolerance, "tolerance", quantity(Dimension::number, tolerance),
+                "error of positions over the length of the beam, for which as many elements are made as "
+                "needed; estimated in the static state with bodies locked at their start"),
           choice_field(
               &E::over, "over", {{"start", ToleranceOver::start}, {"motion", ToleranceOver::motion}},
-              "where the tolerance applies; motion: to the whole motion, by runs with twice the elements each, in \"nurbeam run\" and Python")
+              "where the tolerance applies; motion: to the whole motion, by runs with twice the elements "
+              "each, in \"nurbeam run\" and Python")
               .otherwise("start")
               .beside("tolerance"),
           field(&E::grading, "grading", quantity(Dimension::length),

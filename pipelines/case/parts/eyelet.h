@@ -35,10 +35,10 @@ inline Fields<CaseEyelet> eyelet_fields() {
           field(&E::at, "at", place(), "position of the beam that is in it at the start").needed(),
           field(&E::position, "position", point(),
                 "its position, as a ring without mass; that of the reference curve when omitted"),
-          field(
-              &E::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-              "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed and "
-              "acceleration, at rest at the first and the last"),
+          field(&E::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
+                "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed "
+                "and "
+                "acceleration, at rest at the first and the last"),
           field(&E::on, "on", name(),
                 "the body on which it is: a movable pulley; several eyelets on one body are a block"),
           field(
@@ -48,21 +48,24 @@ inline Fields<CaseEyelet> eyelet_fields() {
               .otherwise("0"),
           place_motion_field(
               &E::motion, "the length of beam that has passed towards its start, from 0 on",
-              "prescribed motion of the beam through it, positive towards the start of the beam, as of a capstan winch"),
+              "prescribed motion of the beam through it, positive towards the start of the beam, as of a "
+              "capstan winch"),
           field(
               &E::force, "force", constant_or_table(Dimension::force, plausible(-1e12, 1e12)),
-              "force of a motor towards the start of the beam, or that over time: torque over the radius of the pulley"),
+              "force of a motor towards the start of the beam, or that over time: torque over the radius of "
+              "the pulley"),
           field(&E::release, "release", quantity(Dimension::time, positive()),
                 "time of a motion until which the beam is locked in it; free from the start when omitted"),
           choice_field(&E::continuous_slope, "slope", {{"continuous", true}, {"discontinuous", false}},
                        "whether the slope of the beam may jump in it")
               .otherwise("discontinuous"),
-          field(
-              &E::direction, "direction", vector(Dimension::number),
-              "of a sleeve, which also fixes the direction of the beam: along the beam, towards its end; a ring leaves it free"),
+          field(&E::direction, "direction", vector(Dimension::number),
+                "of a sleeve, which also fixes the direction of the beam: along the beam, towards its end; a "
+                "ring leaves it free"),
           choice_field(
               &E::rest, "equilibrium", {{"held", StaticPlace::held}, {"free", StaticPlace::free}},
-              "the beam in statics: locked with the position `at` in it, or free to run through it; when omitted free, and locked before a motion without an equilibrium"),
+              "the beam in statics: locked with the position `at` in it, or free to run through it; when "
+              "omitted free, and locked before a motion without an equilibrium"),
           field_by<E>(
               "friction", friction_fields().shape(),
               "what resists the beam that runs through it; nothing when omitted; `law` is capstan when "

@@ -42,17 +42,17 @@ inline Fields<CaseReel> reel_fields() {
               "drum: it turns with its rope, at the speed at which that leaves; spool: rope at rest is "
               "drawn off over its end, and not taken in again")
               .otherwise("drum"),
-          field(
-              &R::pickup, "pickup", quantity(Dimension::number, {.lower = 0.5, .upper = 100}),
-              "of a spool: rope that is drawn off at a speed v has the tension pickup times its mass per length "
-              "times v squared; 0.5 loses no energy; 1 when omitted"),
+          field(&R::pickup, "pickup", quantity(Dimension::number, {.lower = 0.5, .upper = 100}),
+                "of a spool: rope that is drawn off at a speed v has the tension pickup times its mass per "
+                "length "
+                "times v squared; 0.5 loses no energy; 1 when omitted"),
           field(&R::inertia, "inertia", quantity(Dimension::mass, plausible(0, 1e12)),
                 "of the empty drum: its moment of inertia over the square of its radius")
               .otherwise("0"),
-          field(
-              &R::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-              "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed and "
-              "acceleration, at rest at the first and the last; it stands when omitted"),
+          field(&R::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
+                "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed "
+                "and "
+                "acceleration, at rest at the first and the last; it stands when omitted"),
           field(&R::on, "on", name(), "the body that carries it, whose `mass` is without rope"),
           place_motion_field(&R::motion, "the length that it has paid out, from 0 on",
                              "prescribed motion, positive where it pays out"),
@@ -72,9 +72,9 @@ inline Fields<CaseReel> reel_fields() {
               &R::leave_at_empty, "at_empty", {{"stop", false}, {"leave", true}},
               "when nothing is left on it: stop: the beam's end is tied to it; leave: the end comes off")
               .otherwise("stop"),
-          field(
-              &R::direction, "direction", vector(Dimension::number),
-              "of a mouth that also fixes the direction of the beam, as a tube does: along the beam, towards its end; free when omitted"),
+          field(&R::direction, "direction", vector(Dimension::number),
+                "of a mouth that also fixes the direction of the beam, as a tube does: along the beam, "
+                "towards its end; free when omitted"),
       },
       {{{"path", "on"}, false}, {{"motion", "force"}, false}}};
 }

@@ -17,7 +17,9 @@ Field<Owner> slope_field(SlopeRule Owner::*member) {
              {{"automatic", SlopeRule::automatic},
               {"continuous", SlopeRule::continuous},
               {"discontinuous", SlopeRule::discontinuous}},
-             "whether the slope of the beam may jump there; automatic: it may where bending reaches over at most 1/16 of the shorter adjacent element under the tension T, sqrt(EI/T) < l/16, or 1/2 under a body that slides in a motion")
+             "whether the slope of the beam may jump there; automatic: it may where bending reaches over at "
+             "most 1/16 of the shorter adjacent element under the tension T, sqrt(EI/T) < l/16, or 1/2 "
+             "under a body that slides in a motion")
       .otherwise("automatic");
 }
 
