@@ -123,9 +123,8 @@ std::vector<Diagnostic> given_up_node_notes(const std::filesystem::path& file, c
              model.beam_of(joint).name +
              "\", a mesh adaptation beside its node would have changed the energy by " +
              text_of(point.energy, 3) +
-             "J: from there on the body is a point of a fixed mesh, which conserves it; with more elements "
-             "the "
-             "node can stay, and \"carried_as\": \"point\" has none from the start"});
+             " J: from there on the body is a point of a fixed mesh, which conserves it; with more elements "
+             "the node can stay, and \"carried_as\": \"point\" has none from the start"});
   }
   return notes;
 }
@@ -135,8 +134,7 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
   return Diagnostic{
       Severity::warning, file.string() + ": loads",
       "the equilibrium is unstable, and no stable one was found: loads that follow the section and moments "
-      "in "
-      "space have no energy with a minimum; a damped dynamic analysis shows where the model goes"};
+      "in space have no energy with a minimum; a damped dynamic analysis shows where the model goes"};
 }
 
 std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run,

@@ -37,8 +37,7 @@ inline Fields<CaseEyelet> eyelet_fields() {
                 "its position, as a ring without mass; that of the reference curve when omitted"),
           field(&E::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
                 "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed "
-                "and "
-                "acceleration, at rest at the first and the last"),
+                "and acceleration, at rest at the first and the last"),
           field(&E::on, "on", name(),
                 "the body on which it is: a movable pulley; several eyelets on one body are a block"),
           field(
