@@ -51,8 +51,7 @@ inline Fields<CaseReel> reel_fields() {
               .otherwise("0"),
           field(&R::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
                 "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed "
-                "and "
-                "acceleration, at rest at the first and the last; it stands when omitted"),
+                "and acceleration, at rest at the first and the last; it stands when omitted"),
           field(&R::on, "on", name(), "the body that carries it, whose `mass` is without rope"),
           place_motion_field(&R::motion, "the length that it has paid out, from 0 on",
                              "prescribed motion, positive where it pays out"),
