@@ -14,6 +14,7 @@ if(NURBEAM_SPHINX AND NOT site_is_missing AND EXISTS /usr/share/javascript/katex
     DEPENDS ${pages} COMMENT "Making the site of the documentation")
   add_custom_target(docs ALL DEPENDS ${site}/index.html)
   install(DIRECTORY ${site}/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/nurbeam/html COMPONENT doc
+    OPTIONAL
     PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE PATTERN cpp EXCLUDE)
 endif()
 
