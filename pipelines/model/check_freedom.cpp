@@ -87,8 +87,8 @@ class FreedomCheck {
       findings_.warn(
           resolved_.connectors[i].path,
           "is a rod whose ends start at " + text_of(rates[*row], 6) +
-              " m/s from each other along it, which it does not let: the motion starts with what a "
-              "blow along it makes of their speeds; give them speeds that agree");
+              " m/s from each other along it: an impulse along the rod removes this at time 0; give its ends "
+              "matching velocities");
     }
   }
 
