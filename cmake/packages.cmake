@@ -1,10 +1,14 @@
-# cpack -G DEB in the build tree: nurbeam (the programs), libnurbeam-dev (libraries and headers), python3-nurbeam and
-# freecad-nurbeam (the FreeCAD workbench).
+# cpack -G DEB in the build tree: nurbeam (the programs), libnurbeam-dev (libraries and headers), python3-nurbeam,
+# freecad-nurbeam (the FreeCAD workbench) and nurbeam-doc (the site of the documentation).
 set(packaged_components runtime dev)
 set(packaged_names nurbeam libnurbeam-dev)
 if(NURBEAM_WITH_PYTHON)
   list(APPEND packaged_components python freecad)
   list(APPEND packaged_names python3-nurbeam freecad-nurbeam)
+endif()
+if(NURBEAM_SITE)
+  list(APPEND packaged_components doc)
+  list(APPEND packaged_names nurbeam-doc)
 endif()
 set(CPACK_PACKAGE_NAME nurbeam)
 set(CPACK_PACKAGE_CONTACT "The nurbeam authors <authors@nurbeam.invalid>")
@@ -66,4 +70,10 @@ set(CPACK_DEBIAN_FREECAD_PACKAGE_DEPENDS
 set(CPACK_COMPONENT_FREECAD_DESCRIPTION "FreeCAD workbench of nurbeam
  Flexible beams along curves of a document, with bodies that slide on them,
  and cables of a given length between connectors.")
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME nurbeam-doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_DOC_DESCRIPTION "Documentation of nurbeam
+ Tutorials, how-to pages, reference and theory as a site that needs no
+ network: /usr/share/doc/nurbeam/html/index.html.")
 include(CPack)

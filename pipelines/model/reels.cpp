@@ -208,7 +208,7 @@ void warn_of_blows(const ResolvedCase& resolved, const BeamModel& model, Finding
     findings.warn(path + ".motion",
                   "starts at " + text_of(std::abs(speed), 4) + " m/s at once, and beam " +
                       in_quotes(beam.name) + " at " + text_of(std::abs(rider->speed), 4) +
-                      " m/s: a blow of " + text_of(blow, 4) +
+                      " m/s: an impact of " + text_of(blow, 4) +
                       " N, the change of speed times the mass per length and the speed of sound; give it a "
                       "\"ramp\" or rows that begin at rest, or the beam that speed \"along\" in its "
                       "\"initial\" \"velocity\"");

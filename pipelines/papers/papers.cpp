@@ -11,28 +11,28 @@ void write_papers(const std::filesystem::path& directory, std::ostream& progress
   Page page(directory);
   page.heading("The examples of the papers", 1);
   page.paragraph(
-      "Ding, Z.; Ouyang, B. A Variable-Length Rational Finite Element Based on the Absolute Nodal Coordinate "
-      "Formulation. Machines 2022, 10, 174. This page is written by `nurbeam verify papers --out docs`, "
-      "numbers "
-      "in sentences too; wall times are those of the machine it ran on.");
+      "For those who know the papers, and for those who compare programs. This page has every example, "
+      "table and figure of both papers beside nurbeam's results. `nurbeam verify papers --out docs` writes "
+      "it, numbers in sentences too; wall times are those of its machine.");
   page.paragraph(
-      "**Ours** are nurbeam's defaults, but for the axial strain, which is the papers' pointwise one: weights "
-      "that follow the material, velocities projected, energy kept. "
-      "**Paper's rule** is ALE-RANCF as the paper has it: constant weights, Eqs. 29-38, nodal velocities "
-      "kept. "
-      "**All ones** is the same with weights 1 after a merge, **ALE-ANCF** the element with weights 1 "
-      "throughout. All are computed by this program; but for the section on forms all are form V (see "
-      "[theory](theory.md)), which the paper's equations are not. The paper prints numbers only in its "
-      "Tables "
-      "1 and 2: its figures are compared by what it says of them. The references marked in figures are runs "
-      "of "
-      "two other programs with their errors (1e-5 m in Example 1, 2e-5 m in Examples 2 and 3 as drawn, 1e-4 "
-      "m "
-      "in Example 3 straight).");
+      "Sources: **[D]** Ding, Z.; Ouyang, B. A Variable-Length Rational Finite Element Based on the "
+      "Absolute Nodal Coordinate Formulation. Machines 2022, 10, 174. **[S]** the paper on the subdivision "
+      "of RANCF elements.");
   page.paragraph(
-      "What became of each item of both papers, [D] the element and [S] the subdivision. *Reproduced*: computed, "
-      "and as the paper says. *Corrected*: as the paper has it it is wrong, which is shown beside what nurbeam "
-      "does instead. *Not to be had*: the paper's text does not hold it.");
+      "Four methods are compared. **Ours** are nurbeam's defaults, except for the papers' pointwise axial "
+      "strain: weights follow the material, velocities are projected, energy is conserved. **Paper's rule** "
+      "is ALE-RANCF as in the paper: constant weights, Eqs. 29-38, nodal velocities unchanged. **All ones** "
+      "is the same with weights 1 after a merge. **ALE-ANCF** is the element with weights 1 throughout.");
+  page.paragraph(
+      "This program computes all of them. Except in the section on forms all have form V (see "
+      "[theory](theory/5-motion.md)), which the paper's equations do not have. The paper prints numbers "
+      "only in its Tables 1 and 2; its figures are compared by its text. The references marked in figures "
+      "are runs of two other programs. Their errors are 1e-5 m in Example 1, 2e-5 m in Examples 2 and 3 "
+      "stress-free in the shape of the file, and 1e-4 m in Example 3 straight.");
+  page.paragraph(
+      "The table has each item of both papers. *Reproduced*: computed, and as the paper says. *Corrected*: "
+      "the paper's version is wrong, which is shown beside nurbeam's. *Not to be had*: the paper's text "
+      "does not contain it.");
   page.place_status();
   write_equations(page);
   write_falling_beam(page, progress);

@@ -108,7 +108,8 @@ std::optional<Diagnostic> short_steps_note(const std::filesystem::path& file, co
       std::to_string(run.cut_steps) + " of " + std::to_string(run.steps) + " steps were shorter, down to " +
           text_of(run.shortest_cut, 3) +
           " s: a body that is carried as a node slides over a fifth of the element beside it in a step, at "
-          "most (three tenths with \"radau\"); longer elements or \"carried_as\": \"point\" leave steps as long as asked for"};
+          "most (three tenths with \"radau\"); longer elements or \"carried_as\": \"point\" leave steps as "
+          "long as asked for"};
 }
 
 std::vector<Diagnostic> given_up_node_notes(const std::filesystem::path& file, const SimulationReport& run,
@@ -120,10 +121,10 @@ std::vector<Diagnostic> given_up_node_notes(const std::filesystem::path& file, c
         {Severity::note, file.string() + ": sliding joint of \"" + model.body_of(joint).name + "\"",
          "at t = " + text_of(point.time, 6) + " s, at s = " + text_of(point.s, 6) + " m of beam \"" +
              model.beam_of(joint).name +
-             "\", a change of the mesh beside its node would have changed the energy by " +
+             "\", a mesh adaptation beside its node would have changed the energy by " +
              text_of(point.energy, 3) +
-             " J: from there on the body is carried as a point of the mesh, which conserves it; with more elements the "
-             "node can stay, and \"carried_as\": \"point\" has none from the start"});
+             " J: from there on the body is a point of a fixed mesh, which conserves it; with more elements "
+             "the node can stay, and \"carried_as\": \"point\" has none from the start"});
   }
   return notes;
 }
@@ -132,8 +133,8 @@ std::optional<Diagnostic> divergence_warning(const std::filesystem::path& file, 
   if (!run.diverges) return {};
   return Diagnostic{
       Severity::warning, file.string() + ": loads",
-      "the equilibrium is unstable, and no stable one was found: loads that follow the section and moments in "
-      "space have no energy that it could be the least of; see with a damped dynamic analysis where it goes"};
+      "the equilibrium is unstable, and no stable one was found: loads that follow the section and moments "
+      "in space have no energy with a minimum; a damped dynamic analysis shows where the model goes"};
 }
 
 std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const SimulationReport& run,
@@ -153,12 +154,13 @@ std::optional<Diagnostic> snap_warning(const std::filesystem::path& file, const 
                             : in_first_step ? "snaps through or buckles under " + weight + " and " + loads
                                             : "snaps through or buckles under " + loads;
   const bool by_steps = load > 0 && !in_first_step && !model.forces.empty();
-  return Diagnostic{Severity::warning, file.string() + ": loads",
-                    "the model " + under +
-                        ": the equilibrium beyond is on another branch, of which there may be several; " +
-                        (by_steps ? "\"load_steps\" show the way up to there, " : "") +
-                        "a damped dynamic analysis " + (by_steps ? "" : "shows ") +
-                        "where it goes from there"};
+  return Diagnostic{
+      Severity::warning, file.string() + ": loads",
+      "the model " + under +
+          ": the path from zero load reaches a limit or bifurcation point there; the answer lies on "
+          "another path and may not be unique; " +
+          (by_steps ? "\"load_steps\" show the path up to there, " : "") + "a damped dynamic analysis " +
+          (by_steps ? "" : "shows ") + "where it goes from there"};
 }
 
 std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, const SimulationReport& run,
@@ -176,8 +178,8 @@ std::optional<Diagnostic> mechanism_warning(const std::filesystem::path& file, c
                : "beam \"" + loose.name + "\" moves furthest, at s = " + text_of(loose.s, 6) + " m") +
           ", along [" + component(direction[0]) + ", " + component(direction[1]) + ", " +
           component(direction[2]) + "]" + turns_about_text(built.model, loose) +
-          ": the equilibrium that was found is one of many; hold what moves, or leave it to a load or to "
-          "gravity"};
+          ": the equilibrium that was found is one of many; lock what moves, or let a load or gravity "
+          "decide"};
 }
 
 std::optional<Diagnostic> energy_warning(const CaseFile& c, const SimulationReport& run) {

@@ -20,7 +20,7 @@ Array = npt.NDArray[np.float64]
 
 
 class ClosestPoint(NamedTuple):
-    """The place of a curve that is nearest to a point."""
+    """The point of a curve that is nearest to a point."""
 
     parameter: float
     point: Array
@@ -141,7 +141,7 @@ class Curve:
         name: str = "",
     ) -> Curve:
         """The smooth curve through points, (n, 3) in metres and in their order, exact at each; `Curve(points)` takes control
-        points, which a curve goes by. Its parameter is the length of the chords between them. `degree` is 3 unless said
+        points, which lie beside the curve. Its parameter is the length of the chords between them. `degree` is 3 unless said
         otherwise, or less where there are fewer points. `tangents` are directions: (2, 3) at both ends, or (n, 3) at every
         point. A `closed` curve is smooth where its end meets its start; the first point need not be repeated."""
         given = _points(points, "points")
@@ -227,7 +227,7 @@ class Curve:
         return self(np.linspace(self.start, self.end, count))
 
     def closest_point(self, point: npt.ArrayLike) -> ClosestPoint:
-        """The place nearest to a point [m]; of several equally near ones any."""
+        """The point nearest to a point [m]; of several equally near ones any."""
         return ClosestPoint(*self._nurbs.closest(_point(point, "point")))
 
     def insert_knot(self, parameter: float, times: int = 1) -> Curve:
@@ -239,9 +239,9 @@ class Curve:
         return [Curve._of(piece, self.name) for piece in self._nurbs.bezier()]
 
     def to_cubic(self, tolerance: float = 1e-6) -> tuple[Curve, float]:
-        """A cubic curve, as beams are made of, and a bound on how far points of the two at one parameter are apart [m]: 0
-        up to degree 3, which is exact, else proven and at most the tolerance [m], greater than 0; one below 1e-14 of the
-        size of the coordinates is taken as that."""
+        """The cubic curve of a beam, and a bound on the distance of both curves at one parameter [m]. The bound is 0 up
+        to degree 3, which is exact; otherwise it is proven and at most the tolerance [m], greater than 0. A tolerance
+        below 1e-14 of the size of the coordinates is taken as that."""
         if not tolerance > 0:
             raise ValueError(f"tolerance {tolerance} is not positive")
         nurbs, deviation = self._nurbs.cubics(tolerance)

@@ -29,12 +29,12 @@ class Finding(NamedTuple):
 
 
 class Error(Exception):
-    """What all errors of nurbeam are."""
+    """Base class of the errors of nurbeam."""
 
 
 class CaseError(Error, ValueError):
-    """A model or a study that cannot be one. `findings` is the list of all that is to be said of it, each with its place:
-    its text are the errors among them, warnings and notes (`severity`) stand there too."""
+    """An invalid model or study. `findings` lists its errors, warnings and notes (`severity`), each with its position.
+    The text has the errors."""
 
     def __init__(self, findings: Sequence[Finding]):
         self.findings = list(findings)
@@ -46,7 +46,7 @@ class CaseError(Error, ValueError):
 
 
 class CadError(Error, OSError):
-    """A CAD file that cannot be read or written. `findings` says why; its text are the errors among them."""
+    """A CAD file that cannot be read or written. `findings` says why; the text has the errors."""
 
     def __init__(self, findings: Sequence[Finding]):
         self.findings = list(findings)

@@ -6,7 +6,7 @@ __all__ = ["Load"]
 
 
 class Load:
-    """A load of a model; `number` is its place among the loads of the case."""
+    """A load of a model; `number` is its position among the loads of the case."""
 
     def __init__(self, number: int):
         self.number = number

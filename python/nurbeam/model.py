@@ -33,7 +33,7 @@ __all__ = ["Model", "load", "Circle", "Pipe", "Rectangle", "IBeam", "Rope", "Sec
 Quantity = Union[float, str]
 """A number in SI units, or a text with a unit: "5 mm"."""
 Place = Union[float, str, Mapping[str, Any], npt.ArrayLike]
-"""A place on a beam: "start", "end", a reference arc length from the start ([m] or a text with a unit), a point nearby
+"""A position on a beam: "start", "end", a reference arc length from the start ([m] or a text with a unit), a point nearby
 (three numbers [m]), or as in the case file {"length": ...}, {"fraction": ...}, {"near": [...], "within": ...}."""
 Force = Callable[[float, npt.NDArray[np.float64], npt.NDArray[np.float64]], Any]
 MotionLaw = Callable[[float], Any]
@@ -159,6 +159,11 @@ class Beam(_Named):
 class Body(_Named):
     """A body of a model, as `model.add_body` returns it; wherever a body is asked for its name does too."""
 
+    def at(self, place: str | npt.ArrayLike) -> dict[str, Any]:
+        """A place of a rigid body, for joints, supports, connectors and loads: one of its `points` by its name, or a point
+        of it as drawn (3,) [m]."""
+        return {"body": self.name, "at": place}
+
 
 def _json(value: Any) -> Any:
     """As JSON can hold it."""
@@ -213,7 +218,8 @@ def _grip(end: Any) -> Any:
     if isinstance(end, Body):
         return {"body": end.name}
     if isinstance(end, Mapping):
-        return {key: _place(value) if key == "at" else value for key, value in end.items()}
+        of_beam = "body" not in end  # of a body it is the name of a point, or a point
+        return {key: _place(value) if key == "at" and of_beam else value for key, value in end.items()}
     if isinstance(end, str):
         return {"body": end}
     return {"point": end}
@@ -230,12 +236,12 @@ def _axis(axis: Any) -> Any:
 
 
 class Model:
-    """A model: beams, bodies, what holds and loads them, and what is asked of them.
+    """A model: beams, bodies, supports, loads, and an analysis.
 
-    It is a case as the case file has it, built part by part: the methods take the keys of the case file by their names
-    (docs/case-reference.md), quantities are numbers in SI units or texts with a unit ("5 mm"). A wrong key or value is a
-    CaseError where it is written; what does not fit together is found when the model is checked or run: CaseError lists all
-    of it with its place.
+    It is a case, built part by part. The methods take the keys of the case file by their names (docs/case-reference.md).
+    Quantities are numbers in SI units or texts with a unit ("5 mm"). A wrong key or value is a CaseError where it is
+    written. Parts that do not fit together are found when the model is checked or run; CaseError lists all of them with
+    their positions.
 
     Parameters
     ----------
@@ -273,7 +279,8 @@ class Model:
         `add_...` do this. CaseError for a wrong key or value. Returns the item, which may be changed."""
         if kind not in _case_lists():
             raise TypeError(unknown("list of a case", kind, _case_lists()))
-        item: dict[str, Any] = _json({k: _place(v) if k == "at" else v for k, v in keys.items()})
+        of_body = keys.get("beam") is None and keys.get("body") is not None  # whose place is a name or a point
+        item: dict[str, Any] = _json({k: _place(v) if k == "at" and not of_body else v for k, v in keys.items()})
         _complain(kind, item)
         self.case.setdefault(kind, []).append(item)
         return item
@@ -301,26 +308,33 @@ class Model:
         return Beam(named)
 
     def add_body(self, name: str, mass: Quantity, roll_inertia: Quantity | None = None, **keys: Any) -> Body:
-        """A point mass, which a sliding joint or a connector holds."""
+        """A point mass, which a sliding joint or a connector holds; with `inertia` = [Ixx, Iyy, Izz] [kg m^2] about its
+        centre of mass, which is at `position` as drawn, a rigid body. It has places that are named, `points` = {"rim":
+        (3,) [m], ...}, own `axes`, and starts with `velocity` [m/s], `angular_velocity` [rad/s], and `turned` from the
+        drawing."""
         self.add("bodies", name=name, mass=mass, roll_inertia=roll_inertia, **keys)
         return Body(name)
 
     def add_support(
         self,
-        beam: Beam | str,
-        at: Place,
+        beam: Beam | Body | Mapping[str, Any] | str,
+        at: Place | None = None,
         type: str = "pinned",
         name: str | None = None,
         motion: Any = None,
         axis: npt.ArrayLike | None = None,
         **keys: Any,
     ) -> None:
-        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork". `motion` moves it from
+        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork"; or a body or its
+        `body.at("rim")`, where "pinned" is a ball, and a pin with `axis`. `motion` moves it from
         its drawn place: rows [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or
         this with its first two derivatives; else these are taken by differences over 0.1 ms, also just before time 0.
         A `Signal` of three numbers is its velocity [m/s]."""
         by = self._by_function(motion)
-        self.add("supports", beam=beam, at=at, type=type, name=name, axis=axis, **by, **keys)
+        if isinstance(beam, (Body, Mapping)):
+            self.add("supports", **_grip(beam), type=type, name=name, axis=axis, **by, **keys)
+        else:
+            self.add("supports", beam=beam, at=at, type=type, name=name, axis=axis, **by, **keys)
 
     def add_sliding_joint(
         self,
@@ -352,8 +366,8 @@ class Model:
         equilibrium: str | None = None,
         **keys: Any,
     ) -> None:
-        """Runs a beam through a ring without mass: at `position` [m], or where the beam is drawn. `equilibrium`: "held"
-        keeps the place `at` in it until the motion starts, "free" finds its rest. `keys`: `on` (a body that carries it),
+        """Runs a beam through a ring without mass: at `position` [m], or on the reference curve. `equilibrium`: "held"
+        locks the position `at` in it until the motion starts, "free" finds its equilibrium. `keys`: `on` (a body that carries it),
         `path`, `inertia`, `motion`, `force`, `friction` and the others of the case file."""
         self.add("eyelets", name=name, beam=beam, at=at, position=position, equilibrium=equilibrium, **keys)
 
@@ -365,8 +379,8 @@ class Model:
         stored: Quantity,
         **keys: Any,
     ) -> None:
-        """Puts the "start" or the "end" of a beam on a reel, with a length that is stored on it [m] besides what is
-        drawn. `keys`: `motion`, `force`, `inertia`, `friction`, `feed`, `on`, `at_empty` and the others of the case
+        """Puts the "start" or the "end" of a beam on a reel, with a length stored on it [m] in addition to the
+        reference curve. `keys`: `motion`, `force`, `inertia`, `friction`, `feed`, `on`, `at_empty` and the others of the case
         file."""
         self.add("reels", name=name, beam=beam, end=end, stored=stored, **keys)
 
@@ -401,7 +415,7 @@ class Model:
         end: Mapping[str, Any] | Body | npt.ArrayLike,
         **keys: Any,
     ) -> None:
-        """Connects two bodies, places of beams or points: a "spring", "rod", "tension-only" or what else the case file
+        """Connects two bodies, positions on beams or points: a "spring", "rod", "tension-only" or what else the case file
         has. An end is a body, {"beam": ..., "at": ...}, or a point in space (3,) [m]. Keys as in the case file:
         `stiffness`, `damping`, `length`, ..."""
         self.add("connectors", name=name, type=type, **{"from": _grip(start), "to": _grip(end)}, **keys)
@@ -414,24 +428,30 @@ class Model:
         length: Quantity | None = None,
         **keys: Any,
     ) -> None:
-        """Keeps two ends at one distance, `length` [m], or as drawn: `add_connector` of the type "rod"."""
+        """A constant distance between two ends: `length` [m], or that of the reference configuration. It is
+        `add_connector` of the type "rod"."""
         self.add_connector(name, "rod", start, end, length=length, **keys)
 
     def add_joint(
         self,
-        beams: Sequence[Beam | str],
+        beams: Sequence[Beam | Body | Mapping[str, Any] | str | npt.ArrayLike],
         type: str,
         at: npt.ArrayLike | Mapping[str, Any] | None = None,
         name: str | None = None,
         axis: npt.ArrayLike | None = None,
         **keys: Any,
     ) -> None:
-        """Joins beams where an end of one meets the other, or near a point [m]: "hinged" or "rigid"."""
-        self.add("joints", beams=beams, type=type, at=at, name=name, axis=axis, **keys)
+        """Joins beams where an end of one meets the other, or near a point [m]: "hinged" or "rigid". With a rigid body
+        among them, it joins two of bodies, `body.at("rim")`, {"beam": ..., "at": ...} and points in space: also
+        "universal" with `axes`, "cylinder" and "slide" along `axis`."""
+        if any(isinstance(each, (Body, Mapping)) for each in beams):
+            self.add("joints", between=[_grip(each) for each in beams], type=type, name=name, axis=axis, **keys)
+        else:
+            self.add("joints", beams=beams, type=type, at=at, name=name, axis=axis, **keys)
 
     def add_load(
         self,
-        beam: Beam | str,
+        beam: Beam | Body | Mapping[str, Any] | str,
         at: Place | None = None,
         force: Any = None,
         moment: Any = None,
@@ -442,12 +462,14 @@ class Model:
         time: Any = None,
         **keys: Any,
     ) -> Load:
-        """A force [N] or moment [N m] at a place, or a force [N/m] or torque [N m/m] per length, or a force per length as
+        """A force [N] or moment [N m] at a position, or on a body or its `body.at("rim")`; or a force [N/m] or torque
+        [N m/m] per length, or a force per length as
         seen along it (`force_per_projected_length`: snow, ice). `time`: rows
         [time, factor]; `follower`: it turns with the section; `moves`: {"speed": ...}; `offset`: [x, y] from the axis."""
+        on = _grip(beam) if isinstance(beam, (Body, Mapping)) else {"beam": beam, "at": at}
         self.add(
             "loads",
-            beam=beam, at=at, force=force, moment=moment, force_per_length=force_per_length,
+            **on, force=force, moment=moment, force_per_length=force_per_length,
             force_per_projected_length=force_per_projected_length,
             torque_per_length=torque_per_length, follower=follower, time=time, **keys,
         )  # fmt: skip
@@ -469,17 +491,17 @@ class Model:
         points: Sequence[Mapping[str, Any]] | None = None,
         spatial: bool | None = None,
     ) -> None:
-        """A force by a function of yours, on a body, on a place of a beam, or on several `points`: each {"body": ...} or
-        {"beam": ..., "at": ...}.
+        """A force by a function of yours, on a body, on a position of a beam, or on several `points`. Each point is
+        {"body": ...} or {"beam": ..., "at": ...}.
 
         law(t, position, velocity) takes the time [s] and the point's position [m] and velocity [m/s] in world
-        coordinates, (3,) arrays, of several points (points, 3); it returns the force [N] in the same shape. Where it
-        knows them it may return (force, by_position, by_velocity): derivatives of all components by all others,
-        (3 points, 3 points); else, or where they are None, they are taken by differences, which calls it 6 times for
-        each point. It must have no memory: a step may be tried several times. What it raises ends the run and comes
-        out unchanged. A `Signal` of three numbers in the place of the function is the force [N] itself. `spatial`: it may
-        act out of the plane in which a model lies by itself; the model is then one in space. Buckling does not multiply it,
-        and modes about the drawing leave it out, as they do loads."""
+        coordinates, (3,) arrays, of several points (points, 3). It returns the force [N] in the same shape. It may
+        return (force, by_position, by_velocity): derivatives of all components by all others, (3 points, 3 points).
+        Without them, or where they are None, differences call the law 6 times for each point. It must have no memory:
+        a step may be tried several times. An exception ends the run and comes out unchanged. A `Signal` of three
+        numbers instead of the function is the force [N] itself. `spatial`: it may act out of the plane of a planar
+        model, which is then spatial. Buckling does not multiply it. Modes about the reference configuration leave it
+        out, as they do loads."""
         if not callable(law):
             raise TypeError(f"a law is a function law(t, position, velocity), not {law!r}")
         if points is None:
@@ -490,7 +512,7 @@ class Model:
         self._laws.append((_json({"points": places, "spatial": spatial}), law))
 
     def set_wind(self, wind: Signal | None) -> None:
-        """Bodies with a drag area feel a wind [m/s] that a signal of three numbers says, in place of that of the case; its
+        """Bodies with a drag area feel a wind [m/s] that a signal of three numbers says, instead of that of the case; its
         `air` must have a density. None: that of the case. The energies book its work as that of a force."""
         if wind is not None and not isinstance(wind, Signal):
             raise TypeError(f"the wind is {wind!r}; expected a Signal of three numbers, or None")
@@ -625,10 +647,9 @@ class Model:
         """Runs the model to its end.
 
         Keywords are the keys of `analysis` in the case file (`type`, `end_time`, `step`, `tolerance`, `initial`,
-        `load_steps`, `integrator`, ...) and go before those of the case, which do not count for another `type`; `every`
-        is the time between snapshots. With
-        `out` the run writes a results directory, as the command line does; `resume` goes on from the restart point
-        there. Else the results are in memory alone. `progress` shows a bar, by tqdm; when omitted on a terminal.
+        `load_steps`, `integrator`, ...). They replace those of the case, which do not count for another `type`. `every`
+        is the time between snapshots. With `out` the run writes a results directory, as the command line does; `resume`
+        continues from the checkpoint there. Otherwise the results are in memory only. `progress` shows a bar, by tqdm; when omitted on a terminal.
 
         `accuracy=True` estimates the errors of mesh and step, `accuracy="1 %"` refines both until they are below it:
         `results.accuracy`. A target that is not reached is a warning.
@@ -730,13 +751,13 @@ class Model:
         return Simulation(_core.LiveRun.begin(built, self._functions(), start._core if start else None), built, signals)
 
     def system(self, **analysis: Any) -> System:
-        """The equations of motion of the model as drawn; those of other states are `simulation.system`."""
+        """The equations of motion in the reference configuration; those of other states are `simulation.system`."""
         from .system import System
 
         return System(_core.Equations.drawn(self._built(self._or_static(analysis))[0], self._functions()))
 
     def _repr_html_(self) -> str:
-        """In a notebook: the model as drawn, in the 3-D view of the report page."""
+        """In a notebook: the reference configuration, in the 3-D view of the report page."""
         built = self._built(self._or_static({}))[0]
         return Results._of(_core.drawn(built), {"status": "drawn"}, built.summary())._repr_html_()
 

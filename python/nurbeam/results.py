@@ -46,7 +46,7 @@ class Histories(Mapping[str, Array]):
     `"trolley.x"`, `"energy.total"`, `"time"`. `"trolley.position"`, `.velocity`, `.displacement`, `.joint_force`, and of
     supports and joints `.force` and `.couple` are the vectors, (times, 3); `"trolley.speed"` is that of the velocity.
 
-    Numbers that there are none of, as the place of a body that has left its beam, are NaN.
+    Numbers that there are none of, as the position of a body that has left its beam, are NaN.
     """
 
     def __init__(self, times: Array, columns: Sequence[tuple[str, str, str]], values: Array):
@@ -105,12 +105,12 @@ class ConnectorPull(NamedTuple):
 
 
 class Extreme(NamedTuple):
-    """The largest magnitude of a quantity in a run; of the least axial force the least value."""
+    """The largest magnitude of a quantity in a run; of the minimum axial force the minimum."""
 
     value: float
     unit: str
     s: float
-    """Reference arc length of the place on its beam [m]; NaN where there is none"""
+    """Reference arc length of the position on its beam [m]; NaN where there is none"""
     time: float
     """[s]; of a static analysis the load factor"""
 
@@ -191,7 +191,7 @@ class BeamShape:
 
     @property
     def node_slopes(self) -> Array:
-        """(nodes, 3) dr/ds [-]; on the left of a kink."""
+        """(nodes, 3) dr/ds [-]; on the left of a slope discontinuity."""
         return self._frame.nodes(self._index)[2]
 
     @property
@@ -211,7 +211,7 @@ class BeamShape:
 
     @property
     def s(self) -> Array:
-        """(4 elements,) reference arc lengths of the places where `field` has its values [m]."""
+        """(4 elements,) reference arc lengths of the positions where `field` has its values [m]."""
         ends = self._frame.element_ends(self._index)
         return np.asarray(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * np.array([0, 1, 2, 3]) / 3).ravel()
 
@@ -425,8 +425,8 @@ class Results(Sequence[Snapshot]):
 
     @property
     def events(self) -> list[dict[str, Any]]:
-        """What happened between the steps, in order: changes of the mesh, bodies that leave, stop or are released, each
-        with its `time` [s], `kind`, `beam`, `body` and place `s` [m] on the beam; of a directory more (`report`)."""
+        """What happened between the steps, in order: mesh adaptations, bodies that leave, stop or are released, each
+        with its `time` [s], `kind`, `beam`, `body` and position `s` [m] on the beam; of a directory more (`report`)."""
         nobody = {"beam": None, "body": None}
         return [
             {**nobody, **{key.partition(" [")[0]: value for key, value in event.items()}}
@@ -434,7 +434,7 @@ class Results(Sequence[Snapshot]):
         ]
 
     def __reduce__(self) -> Any:
-        """Results of a directory are pickled as the place where they stand, those in memory as what they hold."""
+        """Results of a directory are pickled as their path, those in memory with their contents."""
         if self.directory is None:
             return reduced(_in_memory, self._recording, dict(self.report), self._summary, self._accuracy)
         return reduced(Results, os.fspath(self.directory.absolute()))
@@ -495,7 +495,7 @@ class Results(Sequence[Snapshot]):
     def animate(
         self, file: str | os.PathLike[str] | None = None, fps: float = 20, exaggerate: float = 1
     ) -> matplotlib.animation.FuncAnimation:
-        """The motion as an animation by matplotlib, seen along the axis in which the beams extend least; `exaggerate` as in
+        """The motion as an animation by matplotlib, seen along the axis in which the beams have their smallest size; `exaggerate` as in
         `plot_shape`. With `file`, a .gif, .mp4 or .html, it is written there; the .html needs no network. In a notebook
         `IPython.display.HTML(results.animate().to_jshtml())` shows it; `results.report("x.html")` has the 3-D view."""
         from . import plots
@@ -547,7 +547,7 @@ class Results(Sequence[Snapshot]):
         ax: matplotlib.axes.Axes | None = None,
         exaggerate: float = 1,
     ) -> matplotlib.axes.Axes:
-        """The beams and bodies at some times [s], six when omitted, seen along the axis in which they extend least. With
+        """The beams and bodies at some times [s], six when omitted, seen along the axis of their smallest size. With
         `exaggerate` other than 1 the displacements of the beams are so many times those of the run, the drawing is shown
         in grey, and bodies are left out."""
         from . import plots

@@ -1,4 +1,4 @@
-"""Cables of a given length between two places."""
+"""Cables of a given length between two clamps."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Route(NamedTuple):
     least_radius: float
     """Of bending [m]: EI over the largest bending moment; infinite where nothing bends it."""
     least_radius_s: float
-    """Its place: unstressed length from the start [m]."""
+    """Its position: unstressed length from the start [m]."""
     largest_tension: float
     """Of the axial force along the cable [N]; 0 where there is thrust alone."""
     largest_thrust: float
@@ -106,13 +106,13 @@ def route(
     Parameters
     ----------
     start, end
-        A pair of a point (3,) [m] and the direction (3,) in which the cable leaves it; or a place of a curve of a CAD file
+        A pair of a point (3,) [m] and the direction (3,) in which the cable leaves it; or a position on a CAD curve
         by the keys of the file of cables: `{"file": "plug.step", "curve": "rim", "at": "centre", "flip": True}`.
     length, slack, least_bend_radius
         One of them: the unstressed length [m]; its excess over the distance of the ends, as a part of that distance; or the
-        bend radius [m] that no place may fall below, for which the shortest length is found.
+        minimum bend radius [m], for which the shortest length is found.
     section, material
-        By the keys of the case file; or in their place all three of `mass_per_length` [kg/m], `bending_stiffness` EI
+        By the keys of the case file; or instead all three of `mass_per_length` [kg/m], `bending_stiffness` EI
         [N m^2] and `axial_stiffness` EA [N].
     gravity
         (3,) [m/s^2]
@@ -121,7 +121,7 @@ def route(
     tolerance
         Error of positions, over the length of the cable.
 
-    CaseError, with the values and what would be possible, where the cable is too short, no length keeps the radius, or no
+    CaseError, with the values and what would be possible, where the cable is too short, no length respects the radius, or no
     equilibrium is found within the time.
     """
     numbers = (mass_per_length, bending_stiffness, axial_stiffness)

@@ -158,10 +158,10 @@ class Simulation:
 
     @property
     def report(self) -> dict[str, Any]:
-        """What the run has come to: `status`, in words; `done`, False once it has failed or been interrupted; `time`,
-        `steps`, `rejected_steps`, `newton_iterations`, `seconds`, `energy_drift` [J], `events` (changes of the mesh, bodies
-        at a beam's end, each with its `time` and `kind`), `warnings` (notes too, each its severity, its place and its
-        message)."""
+        """The state of the run: `status`, in words; `done`, False once it has failed or been interrupted; `time`, `steps`,
+        `rejected_steps`, `newton_iterations`, `seconds`, `energy_drift` [J]. `events` are mesh adaptations and bodies at a
+        beam's end, each with its `time` and `kind`. `warnings` have notes too, each with severity, position and
+        message."""
         report = {**self._core.report(), "extremes": self._core.extremes()}
         collectors = json.loads(self._core.collectors())
         return {**report, "collectors": collectors} if collectors else report

@@ -36,7 +36,7 @@ Array = npt.NDArray[np.float64]
 
 class Study(Mapping[str, Array]):
     """What a study has left in its directory: columns over its variants, by the names of variables and quantities;
-    NaN where a variant is not done.
+    NaN where a variant failed.
 
     `units` are those of the quantities that have one, `statuses` and `reasons` say how each variant ended; `answer` is what
     the study found: Sobol indices, a probability, the best variants, derivatives of quantities; None for another plan. Of
@@ -69,7 +69,7 @@ class Study(Mapping[str, Array]):
         self.statuses: list[str] = [row[last] for row in rows]
         """"done", "rejected", "refused", "failed", "timed out" or "crashed"."""
         self.reasons: list[str] = [row[last + 2] for row in rows]
-        """Why a variant is not done; empty where it is."""
+        """Why a variant failed; empty where it did not."""
         self._columns: dict[str, Array] = {}
         self.units: dict[str, str] = {}
         """Of the quantities that have one."""
@@ -154,14 +154,13 @@ def _run(file: Path, directory: Path, jobs: int, resume: bool) -> Study:
 
 def study(what: str | os.PathLike[str] | Mapping[str, Any], out: str | os.PathLike[str] | None = None,
           jobs: int | None = None, resume: bool = False) -> Study:
-    """Runs a study: a study file, or what it would hold (docs/studies.md, all keys in docs/study-reference.md), where
-    arrays may stand for lists; its case and other files are relative to the file, or to the working directory.
+    """Runs a study: a study file, or its contents (docs/studies.md, all keys in docs/study-reference.md). Arrays may
+    replace lists. Its case and other files are relative to the file, or to the working directory.
 
-    `out` is the directory of the results, otherwise STUDY_study (for a mapping, a temporary one, which is there as long as
-    the Study); `jobs` the number of variants that run at a time, one for each core when omitted; with `resume` the variants
-    that are there already do not run again. Raises CaseError where the study is wrong, also a FileNotFoundError where it is
-    not there, ValueError where `jobs` is, and
-    RunError where the study has no answer or cannot be written.
+    `out` is the directory of the results, by default STUDY_study (for a mapping a temporary one, which exists as long as
+    the Study). `jobs` is the number of variants that run at a time, by default one for each core. With `resume` existing
+    variants do not run again. Raises CaseError for a wrong study (also a FileNotFoundError for a missing one), ValueError
+    for wrong `jobs`, and RunError where the study has no answer or cannot be written.
     """
     at_a_time = _jobs(jobs)
     if not isinstance(what, Mapping):

@@ -31,7 +31,7 @@ class System:
 
     @property
     def coordinates(self) -> list[str]:
-        """The name of each coordinate, (n): "cable[3].x", "cable[3].slope.y", "trolley.x", "trolley.s", ... The place of
+        """The name of each coordinate, (n): "cable[3].x", "cable[3].slope.y", "trolley.x", "trolley.s", ... The position of
         a body that slides on several beams has the beam's name too, "trolley.cable.s". A node on which a body slides has
         its position in the body's coordinates."""
         return self._core.coordinates()

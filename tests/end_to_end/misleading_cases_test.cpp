@@ -180,9 +180,8 @@ TEST(MisleadingCases, ABodyGivesUpItsNodeWhereAMergeWouldCostTooMuch) {
       "kink_over_support_blows_up.json",
       {"sliding_joints[0].slope=continuous", R"(beams[0].elements={"count":8})", "output.report=false"});
   ASSERT_EQ(run.code, 0) << run.messages;
-  EXPECT_TRUE(run.says("a change of the mesh beside its node would have changed the energy by"))
-      << run.messages;
-  EXPECT_TRUE(run.says("from there on the body is carried as a point of the mesh")) << run.messages;
+  EXPECT_TRUE(run.says("a mesh adaptation beside its node would have changed the energy by")) << run.messages;
+  EXPECT_TRUE(run.says("from there on the body is a point of a fixed mesh")) << run.messages;
   EXPECT_FALSE(run.says("do not trust")) << run.messages;
 }
 

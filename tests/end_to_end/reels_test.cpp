@@ -112,7 +112,7 @@ TEST(Reels, KeepTheSpeedThatARampReaches) {
   ASSERT_EQ(run.code, 0) << run.messages;
   EXPECT_NEAR(run.last("drum.out [m]"), 4 + 1.5 * (2 - 0.4 / 2), 1e-6);
   EXPECT_NEAR(run.last("drum.rate [m/s]"), 1.5, 1e-6);
-  EXPECT_FALSE(run.says("blow")) << run.messages;
+  EXPECT_FALSE(run.says("an impact of")) << run.messages;
 }
 
 // A support that is nearer to the mouth than an element is taken in no farther than it is drawn.
@@ -136,16 +136,16 @@ TEST(Reels, StopBeforeAFastenedBody) {
   EXPECT_NEAR(run.last("drum.out [m]"), 4 - 2 + 0.5, 0.02);
 }
 
-// A speed that is there at once is a blow of rho c v.
-TEST(Reels, WarnOfBlows) {
+// A speed that is there at once is an impact of rho c v.
+TEST(Reels, WarnOfImpacts) {
   const auto with = [](const std::string& motion) {
     return test::run_text(hanging(R"("stored": 5, "motion": )" + motion,
                                   R"("initial": "equilibrium", "step": 1e-4, "end_time": 1e-3)"));
   };
   const CaseRun at_once = with(R"({ "speed": 0.5 })");
-  EXPECT_TRUE(at_once.says("a blow of 2236 N")) << at_once.messages;  // 0.5 sqrt(2e7 N 1 kg/m)
+  EXPECT_TRUE(at_once.says("an impact of 2236 N")) << at_once.messages;  // 0.5 sqrt(2e7 N 1 kg/m)
   const CaseRun at_rest = with(R"({ "table": [[0, 0], [1, 1], [2, 4], [3, 9]] })");
-  EXPECT_FALSE(at_rest.says("blow")) << at_rest.messages;
+  EXPECT_FALSE(at_rest.says("an impact of")) << at_rest.messages;
 }
 
 // In a frame that turns the body at the rope's end pulls with its weight and its centrifugal force.

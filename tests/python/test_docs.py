@@ -22,6 +22,12 @@ def test_the_blocks_of_the_page_run_in_their_order(tmp_path):
         assert "<svg" in (tmp_path / picture).read_text()
 
 
+def test_the_ten_lines_of_the_overview_run(tmp_path):
+    lines = "\n".join(re.findall(r"```python\n(.*?)```", (ROOT / "docs/api.md").read_text(), re.S))
+    shutil.copytree(ROOT / "samples", tmp_path / "samples")
+    subprocess.run([sys.executable, "-W", "ignore", "-c", lines], check=True, cwd=tmp_path)
+
+
 def test_the_pictures_of_the_page_exist():
     page = (ROOT / "docs/python.md").read_text()
     for picture in re.findall(r"!\[.*?\]\((.*?)\)", page):

@@ -57,8 +57,8 @@ inline Fields<Orientation> orientation_fields() {
                       }),
           field_by<O>(
               "start", vector(Dimension::number),
-              "it does at the start, and from there sections do not twist; z, or x where the beam starts "
-              "along z, when nothing is said",
+              "direction of the y axis at the start; from there sections do not twist; z, or x where the "
+              "beam starts along z, when omitted",
               [](const Json& json, const std::string&, O& to, Findings&) { take(json, to.direction); }),
           field_by<O>("frenet", boolean(), "it points to the centre of curvature everywhere",
                       [](const Json& json, const std::string&, O& to, Findings&) {
@@ -88,11 +88,9 @@ inline Fields<CaseBeam> beam_fields() {
   return {
       {
           field(&B::name, "name", name(), "name of the beam").needed(),
-          field_by<B>("axis", axis_shape(), "the beam's axis as drawn", elsewhere).needed(),
-          field(
-              &B::rigid, "rigid", boolean(),
-              "a guide: the axis stays as drawn, without elements, mass or strain, and takes neither section "
-              "nor material")
+          field_by<B>("axis", axis_shape(), "the reference curve of the beam", elsewhere).needed(),
+          field(&B::rigid, "rigid", boolean(),
+                "a rigid curve, or track: it does not deform, and takes neither section nor material")
               .otherwise("false"),
           field_by<B>("section", section_shape(), "cross-section; needed unless the beam is `rigid`",
                       elsewhere),
@@ -120,17 +118,17 @@ inline Fields<CaseBeam> beam_fields() {
           field(
               &B::torsion, "torsion", boolean(),
               "the beam bends about its section's own axes and twists, in space; when omitted true with "
-              "`orientation` or `second_moments`, and, where `stress_free` does not say \"straight\", where the "
-              "axis is curved in space, where a drawn profile in space does not bend alike in all directions and "
-              "where a support, joint, load or body needs its sections"),
+              "`orientation` or `second_moments`, and, where `stress_free` does not say \"straight\", where "
+              "the axis is curved in space, where a profile in space has I_x other than I_y, and where a "
+              "support, joint, load or body needs its sections"),
           object_field(&B::orientation, "orientation", orientation_fields(),
-                       "how the sections of a beam with torsion are drawn"),
-          choice_field(&B::stress_free, "stress_free",
-                       {{"as-drawn", StressFree::as_drawn},
-                        {"straight", StressFree::straight},
-                        {"as-drawn-without-torsion", StressFree::as_drawn_without_torsion}},
-                       "the unstressed shape; when omitted as-drawn in planar models and with torsion, else "
-                       "straight"),
+                       "orientation of the sections of a beam with torsion"),
+          choice_field(
+              &B::stress_free, "stress_free",
+              {{"as-drawn", StressFree::as_drawn},
+               {"straight", StressFree::straight},
+               {"as-drawn-without-torsion", StressFree::as_drawn_without_torsion}},
+              "the stress-free shape; when omitted as-drawn in planar models and with torsion, else straight"),
           choice_field(&B::curvature, "curvature",
                        {{"material", CurvatureMeasure::material}, {"spatial", CurvatureMeasure::spatial}},
                        "curvature measure; spatial: that of the paper on the element")
@@ -138,19 +136,20 @@ inline Fields<CaseBeam> beam_fields() {
           choice_field(
               &B::axial_strain, "axial_strain",
               {{"ends-and-mean", AxialStrain::ends_and_mean}, {"pointwise", AxialStrain::pointwise}},
-              "the axial strain that carries: the quadratic with its values at the element's ends and "
-              "its mean, or that at every point, as in the papers, which locks in slender beams; when "
+              "the assumed axial strain: the quadratic with the end values and the mean of the strain in an "
+              "element, or the strain at every point, as in the papers, which locks in slender beams; when "
               "omitted ends-and-mean, but pointwise with constant weights, without metric and with form "
               "virtual-work"),
           field(&B::tension, "tension", quantity(Dimension::force, plausible(-1e12, 1e12)),
-                "axial force that the beam has as drawn; negative, of a beam that bends: a thrust")
+                "axial force in the reference configuration; negative: compression of a beam that bends")
               .otherwise("0"),
           field(
               &B::unstressed_length, "unstressed_length", quantity(Dimension::length, positive()),
-              "length of the beam when it is free, if it is not drawn so: the drawing is then its place and, "
-              "scaled, its unstressed shape; the drawn length when omitted"),
+              "length of the beam without stress; the reference curve is then where the analysis starts, "
+              "and its shape, scaled to this length, is stress-free; the length of the reference curve when "
+              "omitted"),
           field(&B::temperature, "temperature", constant_or_table(Dimension::temperature, kelvin),
-                "how much warmer it is than when it has its unstressed length, or that over time; needs "
+                "difference of temperature from the state of the unstressed length, or that over time; needs "
                 "material.thermal_expansion"),
           field_by<B>("initial", initial, "how it moves at time 0; at rest when omitted",
                       [](const Json& json, const std::string& path, B& beam, Findings& findings) {
@@ -164,25 +163,25 @@ inline Fields<CaseBeam> beam_fields() {
               .otherwise("variational"),
           field(&B::ring, "closed", boolean(),
                 "true: a ring, whose end is its start; else a closed axis is open at its seam"),
-          choice_field(&B::corners, "corners",
-                       {{"error", Corners::error},
-                        {"smooth", Corners::smooth},
-                        {"rigid", Corners::rigid},
-                        {"hinge", Corners::hinge}},
-                       "what a corner of the axis is; smooth: rounded, if small; rigid: kept, with its angle")
+          choice_field(
+              &B::corners, "corners",
+              {{"error", Corners::error},
+               {"smooth", Corners::smooth},
+               {"rigid", Corners::rigid},
+               {"hinge", Corners::hinge}},
+              "treatment of a corner of the axis; smooth: rounded, if small; rigid: a frame that conserves "
+              "the angle")
               .otherwise("error"),
-          field_by<B>(
-              "smooth_up_to", quantity(Dimension::angle, {.lower = 0, .upper = 45, .open = true}),
-              "greatest corner that is rounded, whatever greater ones are; when omitted 5 with smooth, "
-              "else none",
-              [](const Json& json, const std::string&, B& beam, Findings&) {
-                take(json, beam.smooth_angle);
-                beam.smooth_angle *= std::numbers::pi / 180;
-              })
+          field_by<B>("smooth_up_to", quantity(Dimension::angle, {.lower = 0, .upper = 45, .open = true}),
+                      "largest corner that is rounded; when omitted 5 with smooth, else none",
+                      [](const Json& json, const std::string&, B& beam, Findings&) {
+                        take(json, beam.smooth_angle);
+                        beam.smooth_angle *= std::numbers::pi / 180;
+                      })
               .beside("corners"),
           field(&B::approximation_tolerance, "approximation_tolerance",
                 quantity(Dimension::length, positive()),
-                "greatest deviation of the cubics from an axis of degree above 3")
+                "maximum deviation of the cubics from an axis of degree above 3")
               .otherwise("1e-6 m, or 1e-6 of its length where that is less,"),
       },
       {{{"tension", "unstressed_length"}, false}}};

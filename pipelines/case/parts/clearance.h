@@ -19,8 +19,8 @@ inline Fields<CaseClearance> clearance_fields(const std::filesystem::path& direc
       field(&C::beam, "beam", name(), "the beam above").needed(),
       field_by<C>(
           "profile", axis_shape(),
-          "the ground: points or a curve, given as an axis of a beam; a place of the beam is over its nearest "
-          "point in plan",
+          "the ground: points or a curve, given as an axis of a beam; a point of the beam is over its "
+          "nearest point in plan",
           [directory](const Json& json, const std::string& path, C& clearance, Findings& findings) {
             clearance.profile = read_beam_axis(json, path, directory, findings);
           })

@@ -56,8 +56,8 @@ inline Fields<CaseCollector> collector_fields() {
                 "`force` is what is left of the lift")
               .needed(),
           field(&C::stiffness, "stiffness", list(quantity(Dimension::stiffness, plausible(0, 1e16))),
-                "of the springs below each mass, the first one to the base; they carry nothing where all "
-                "masses are as high as the wire is drawn at the start")
+                "of the springs below each mass, the first one to the base; they have no force where all "
+                "masses are at the height of the reference wire at the start")
               .needed(),
           field(&C::damping, "damping", list(quantity(Dimension::damping, plausible(0, 1e16))),
                 "of the dampers beside the springs; none when omitted"),
@@ -100,8 +100,8 @@ inline Fields<CaseCollector> collector_fields() {
           field(&C::bands, "bands", array(pair(quantity(Dimension::number, frequencies))),
                 "more statistics: of the force between two frequencies in Hz each, by the same filter"),
           field(&C::uplift, "uplift", array(name()),
-                "names of probes whose largest displacement along `up` since the start is told, as of a wire "
-                "at its supports"),
+                "names of probes whose largest displacement along `up` since the start is reported, as of a "
+                "wire at its supports"),
       },
       {}};
 }

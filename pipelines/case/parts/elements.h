@@ -23,19 +23,20 @@ inline Fields<CaseElements> elements_fields() {
   const Range tolerance{.lower = 1e-9, .upper = 0.1, .reason = "less is round-off, more no longer a measure"};
   return {
       {
-          field(&E::count, "count", integer(count),
-                "number of elements of the beam; 20 when nothing is said, or as many as there are segments"),
+          field(
+              &E::count, "count", integer(count),
+              "number of elements of the beam; 20, or one a segment if there are more segments, when omitted"),
           field(&E::max_length, "max_length", quantity(Dimension::length, positive()),
-                "greatest element length"),
+                "maximum length of an element"),
           field(&E::per_segment, "per_segment", integer(count),
                 "elements per cubic segment of the axis, cut at the supports"),
-          field(
-              &E::tolerance, "tolerance", quantity(Dimension::number, tolerance),
-              "as many elements as the beam needs for this error of positions, over its length, estimated from "
-              "the static state in which bodies are held where they start"),
-          choice_field(&E::over, "over", {{"start", ToleranceOver::start}, {"motion", ToleranceOver::motion}},
-                       "where the tolerance holds; motion: over the whole motion, found by runs with ever "
-                       "twice the elements, in \"nurbeam run\" and Python")
+          field(&E::tolerance, "tolerance", quantity(Dimension::number, tolerance),
+                "error of positions over the length of the beam, for which as many elements are made as "
+                "needed; estimated in the static state with bodies locked at their start"),
+          choice_field(
+              &E::over, "over", {{"start", ToleranceOver::start}, {"motion", ToleranceOver::motion}},
+              "where the tolerance applies; motion: to the whole motion, by runs with twice the elements "
+              "each, in \"nurbeam run\" and Python")
               .otherwise("start")
               .beside("tolerance"),
           field(&E::grading, "grading", quantity(Dimension::length),

@@ -29,20 +29,17 @@ inline Fields<CaseEyelet> eyelet_fields() {
   using E = CaseEyelet;
   return {
       {
-          field(&E::name, "name", name(), "heads the columns of its force and of the place that is in it")
+          field(&E::name, "name", name(), "heads the columns of its force and of the beam's position in it")
               .needed(),
           field(&E::beam, "beam", name(), "the beam that runs through it").needed(),
-          field(&E::at, "at", place(), "which place of the beam is in it at the start").needed(),
+          field(&E::at, "at", place(), "position of the beam that is in it at the start").needed(),
           field(&E::position, "position", point(),
-                "where it stands, a ring without mass; where the beam is drawn there when omitted"),
-          field(
-              &E::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-              "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed and "
-              "acceleration, at rest at the first and the last"),
-          field(
-              &E::on, "on", name(),
-              "the body that carries it, which is then where the eyelet is: a movable pulley; several eyelets on "
-              "one body are a block"),
+                "its position, as a ring without mass; that of the reference curve when omitted"),
+          field(&E::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
+                "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed "
+                "and acceleration, at rest at the first and the last"),
+          field(&E::on, "on", name(),
+                "the body on which it is: a movable pulley; several eyelets on one body are a block"),
           field(
               &E::inertia, "inertia", quantity(Dimension::mass, plausible(0, 1e12)),
               "of a pulley that turns as the beam runs over it: its moment of inertia over the square of its "
@@ -50,25 +47,24 @@ inline Fields<CaseEyelet> eyelet_fields() {
               .otherwise("0"),
           place_motion_field(
               &E::motion, "the length of beam that has passed towards its start, from 0 on",
-              "drives the beam through it, towards its start where it is positive, as a capstan "
-              "winch does"),
+              "prescribed motion of the beam through it, positive towards the start of the beam, as of a "
+              "capstan winch"),
           field(
               &E::force, "force", constant_or_table(Dimension::force, plausible(-1e12, 1e12)),
-              "with which it drives the beam towards its start, or that over time: the torque of a motor over the "
-              "radius of its pulley"),
+              "force of a motor towards the start of the beam, or that over time: torque over the radius of "
+              "the pulley"),
           field(&E::release, "release", quantity(Dimension::time, positive()),
-                "time of a motion until which the beam is held in it; free from the start when omitted"),
+                "time of a motion until which the beam is locked in it; free from the start when omitted"),
           choice_field(&E::continuous_slope, "slope", {{"continuous", true}, {"discontinuous", false}},
-                       "whether the beam may have a kink in it")
+                       "whether the slope of the beam may jump in it")
               .otherwise("discontinuous"),
-          field(
-              &E::direction, "direction", vector(Dimension::number),
-              "of a sleeve, which holds the direction of the beam too: along the beam, towards its end; a ring "
-              "leaves it free"),
+          field(&E::direction, "direction", vector(Dimension::number),
+                "of a sleeve, which also fixes the direction of the beam: along the beam, towards its end; a "
+                "ring leaves it free"),
           choice_field(
               &E::rest, "equilibrium", {{"held", StaticPlace::held}, {"free", StaticPlace::free}},
-              "where statics find the beam: with the place `at` in it, or free to run through it; when "
-              "omitted free, and held before a motion for which there is no rest"),
+              "the beam in statics: locked with the position `at` in it, or free to run through it; when "
+              "omitted free, and locked before a motion without an equilibrium"),
           field_by<E>(
               "friction", friction_fields().shape(),
               "what resists the beam that runs through it; nothing when omitted; `law` is capstan when "

@@ -22,7 +22,7 @@ inline Fields<CaseVelocity> velocity_fields() {
       field(&V::about, "about", point(), "a point of the axis of the rotation; the origin when omitted")
           .beside("rotation"),
       field(&V::along, "along", quantity(Dimension::speed, plausible(-1e9, 1e9)),
-            "of the material along the drawn axis, towards its end"),
+            "of the material along the axis, towards its end"),
   }};
 }
 

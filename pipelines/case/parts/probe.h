@@ -20,7 +20,7 @@ inline Fields<CaseProbe> probe_fields() {
       field(&P::at, "at", place(), "where").needed(),
       choice_field(&P::side, "side",
                    {{"before", ProbePlace::Side::before}, {"after", ProbePlace::Side::after}},
-                   "where forces jump at the place: of the part of smaller or of greater s")
+                   "where forces jump at the position: the side of smaller or of larger s")
           .otherwise("after"),
   }};
 }

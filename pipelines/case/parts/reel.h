@@ -35,27 +35,26 @@ inline Fields<CaseReel> reel_fields() {
                        "the end of the beam at which it is")
               .needed(),
           field(&R::stored, "stored", quantity(Dimension::length, plausible(0, 1e6)),
-                "unstressed length that is on it at the start, besides the beam as drawn")
+                "unstressed length on it at the start, in addition to the reference curve")
               .needed(),
           choice_field(
               &R::feed, "feed", {{"drum", Reel::Feed::drum}, {"spool", Reel::Feed::spool}},
               "drum: it turns with its rope, at the speed at which that leaves; spool: rope at rest is "
               "drawn off over its end, and not taken in again")
               .otherwise("drum"),
-          field(
-              &R::pickup, "pickup", quantity(Dimension::number, {.lower = 0.5, .upper = 100}),
-              "of a spool: rope that is drawn off at a speed v has the tension pickup times its mass per length "
-              "times v squared; 0.5 loses no energy; 1 when omitted"),
+          field(&R::pickup, "pickup", quantity(Dimension::number, {.lower = 0.5, .upper = 100}),
+                "of a spool: rope that is drawn off at a speed v has the tension pickup times its mass per "
+                "length "
+                "times v squared; 0.5 loses no energy; 1 when omitted"),
           field(&R::inertia, "inertia", quantity(Dimension::mass, plausible(0, 1e12)),
                 "of the empty drum: its moment of inertia over the square of its radius")
               .otherwise("0"),
-          field(
-              &R::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-              "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed and "
-              "acceleration, at rest at the first and the last; it stands when omitted"),
+          field(&R::moves, "path", vector_table(Dimension::length, plausible(-1e9, 1e9)),
+                "moves it: rows [time, x, y, z] of where it is; smooth between them, with a continuous speed "
+                "and acceleration, at rest at the first and the last; it stands when omitted"),
           field(&R::on, "on", name(), "the body that carries it, whose `mass` is without rope"),
           place_motion_field(&R::motion, "the length that it has paid out, from 0 on",
-                             "drives it; pays out where it is positive"),
+                             "prescribed motion, positive where it pays out"),
           field(
               &R::force, "force", constant_or_table(Dimension::force, plausible(-1e12, 1e12)),
               "with which it takes in, or that over time: the torque of a motor over the radius of the drum"),
@@ -72,10 +71,9 @@ inline Fields<CaseReel> reel_fields() {
               &R::leave_at_empty, "at_empty", {{"stop", false}, {"leave", true}},
               "when nothing is left on it: stop: the beam's end is tied to it; leave: the end comes off")
               .otherwise("stop"),
-          field(
-              &R::direction, "direction", vector(Dimension::number),
-              "of a mouth that holds the direction of the beam too, as a guide tube: along the beam, towards its "
-              "end; free when omitted"),
+          field(&R::direction, "direction", vector(Dimension::number),
+                "of a mouth that also fixes the direction of the beam, as a tube does: along the beam, "
+                "towards its end; free when omitted"),
       },
       {{{"path", "on"}, false}, {{"motion", "force"}, false}}};
 }

@@ -12,13 +12,14 @@ enum class SlopeRule {
 
 template <class Owner>
 Field<Owner> slope_field(SlopeRule Owner::*member) {
-  return choice_field(member, "slope",
-                      {{"automatic", SlopeRule::automatic},
-                       {"continuous", SlopeRule::continuous},
-                       {"discontinuous", SlopeRule::discontinuous}},
-                      "whether the beam may have a kink there; automatic: it may where, under its tension T, "
-                      "bending reaches over a sixteenth of the shorter element beside it at most, "
-                      "sqrt(EI/T) < l/16, or over half of it under a body that slides in a motion")
+  return choice_field(
+             member, "slope",
+             {{"automatic", SlopeRule::automatic},
+              {"continuous", SlopeRule::continuous},
+              {"discontinuous", SlopeRule::discontinuous}},
+             "whether the slope of the beam may jump there; automatic: it may where bending reaches over at "
+             "most 1/16 of the shorter adjacent element under the tension T, sqrt(EI/T) < l/16, or 1/2 "
+             "under a body that slides in a motion")
       .otherwise("automatic");
 }
 

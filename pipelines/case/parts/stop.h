@@ -29,16 +29,16 @@ inline Fields<CaseStop> stop_fields() {
   return {{
               field(&S::beam, "beam", name(), "the beam on which bodies meet it").needed(),
               field(&S::at, "at", place(),
-                    "where it stands on the beam; without it, it is between the two `bodies`"),
+                    "its position on the beam; without it, it is between the two `bodies`"),
               field(&S::bodies, "bodies", array(name(), 1),
-                    "those that it stops, when omitted all on the beam; or the two that it keeps apart"),
+                    "the bodies that it stops, or the two that it separates; all on the beam when omitted"),
               choice_field(&S::side, "side",
                            {{"both", S::Side::both}, {"before", S::Side::before}, {"after", S::Side::after}},
                            "stops bodies that come from before it (lesser s), from after it, or both")
                   .otherwise("both")
                   .beside("at"),
               field(&S::gap, "gap", quantity(Dimension::length, not_negative()),
-                    "least distance of the two bodies along the beam")
+                    "minimum distance of the two bodies along the beam")
                   .otherwise("0"),
               field(&S::restitution, "restitution", quantity(Dimension::number, {.lower = 0, .upper = 1}),
                     "of a hard stop: speed after over speed before an impact")
