@@ -2,6 +2,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "fem/constraints/body_joint.h"
 #include "fem/constraints/body_on_body.h"
 #include "fem/constraints/corner_angle.h"
 #include "fem/constraints/held_position_of_body.h"
@@ -9,8 +10,10 @@
 #include "fem/constraints/joined_slopes.h"
 #include "fem/constraints/kept_contact.h"
 #include "fem/constraints/kept_length.h"
+#include "fem/constraints/point_on_body.h"
 #include "fem/constraints/rider_ties.h"
 #include "fem/constraints/support.h"
+#include "fem/constraints/unit_attitude.h"
 #include "fem/structure/type_list.h"
 
 /// The lists of constraints: a new constraint needs a change here and nowhere else outside its own file.
@@ -29,11 +32,15 @@ using ConstraintList = std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirecti
                                     JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>, KeptLength<D>,
                                     HeldPositionOfBody<D>, BodyOnBody<D>, HeldSlope<D>, Others...>;
 template <int D>
-using BoundConstraint =
-    std::conditional_t<D == 3,
-                       ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll,
-                                      BodyOnSection<FollowedNode>, BodyOnSection<FollowedPoint>>,
-                       ConstraintList<D>>;
+using BoundConstraint = std::conditional_t<
+    D == 3,
+    ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll,
+                   BodyOnSection<FollowedNode>, BodyOnSection<FollowedPoint>, UnitAttitude, PointOnBody,
+                   AxesOnSection<GuideSection, 2>, AxesOnSection<GuideSection, 3>,
+                   AxesOnSection<FollowedNode, 2>, AxesOnSection<FollowedNode, 3>,
+                   AxesOnSection<FollowedPoint, 2>, AxesOnSection<FollowedPoint, 3>, SquareAxes<1>,
+                   SquareAxes<2>, SquareAxes<3>, BodyAtPlace, PointOnLine>,
+    ConstraintList<D>>;
 
 template <int D, class... C>
 consteval bool all_keep_constraint_offers(const std::variant<C...>*) {
@@ -48,6 +55,7 @@ static_assert(all_keep_constraint_offers<3>(static_cast<BoundConstraint<3>*>(nul
 /// rows, after those of descriptions. Each offers bind(binding, add), and `moves` where its constraints move
 /// over the mesh. Restart points know multipliers by their rows, so a new source comes last.
 template <int D>
-using ConstraintSources = TypeList<RiderTies<D>, KeptContact<D>, CornerAngle<D>, KeptLength<D>>;
+using ConstraintSources =
+    TypeList<RiderTies<D>, KeptContact<D>, CornerAngle<D>, KeptLength<D>, UnitAttitude, PointOnBody>;
 
 }  // namespace nurbeam

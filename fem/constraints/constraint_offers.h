@@ -17,11 +17,13 @@ struct ConstraintOffers {
   bool constant =
       false;  ///< (is_constant()) whether the gradient is equal in all states; linear ones need not say
   bool curvature = false;  ///< (curvature(at, state, v)) v . d2g/dq2 v, cheaper than by the Hessian
-  bool force = false;      ///< (force(y)) force on the beam for its multipliers; without this hook it is -y
-  bool couple = false;     ///< (couple(at, state, y)) couple on the beam, in place of a force
-  bool action = false;     ///< (action(at, state, y)) force and couple on a point of a beam, if there is one
-  bool on_body = false;    ///< (on_body(body, state, y)) force on a body [N]
-  bool work = false;       ///< (work(from, to, y_from, y_to)) work between two states on one mesh [J]
+  /// (force(y) or force(state, y)) force on the beam, or the body, for its multipliers; without this hook it
+  /// is -y
+  bool force = false;
+  bool couple = false;   ///< (couple(at, state, y)) couple on the beam, in place of a force
+  bool action = false;   ///< (action(at, state, y)) force and couple on a point of a beam, if there is one
+  bool on_body = false;  ///< (on_body(body, state, y)) force on a body [N]
+  bool work = false;     ///< (work(from, to, y_from, y_to)) work between two states on one mesh [J]
   bool body = false;  ///< (body()) first coordinate of a body that follows the constraint's other coordinates
   bool place = false;      ///< (place()) coordinate of the place that the constraint holds
   bool stop = false;       ///< (closed_stop()) number of the stop that the constraint keeps closed
@@ -57,7 +59,8 @@ consteval bool keeps_constraint_offers() {
                                           const Eigen::Matrix<double, ConstraintTerms<D>::size, 1>& v) {
     c.curvature(at, x, v);
   };
-  constexpr bool has_force = requires(const C& c, const Rows& y) { Eigen::Vector3d(c.force(y)); };
+  constexpr bool has_force = requires(const C& c, const Rows& y) { Eigen::Vector3d(c.force(y)); }
+  || requires(const C& c, const State& x, const Rows& y) { Eigen::Vector3d(c.force(x, y)); };
   constexpr bool has_couple = requires(const C& c, const MeshedBeams<D>& at, const State& x, const Rows& y) {
     Eigen::Vector3d(c.couple(at, x, y));
   };

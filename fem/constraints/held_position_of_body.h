@@ -16,13 +16,14 @@ class HeldPositionOfBody {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  /// `held` must outlive the constraint.
-  HeldPositionOfBody(const MeshedBeams<D>& at, const HeldBody& held)
-      : body_(held.body),
-        drawn_(drawn_place(at.structure, Grip::on_body(held.body)).template head<D>()),
-        away_(held.position.template head<D>() - drawn_),
-        motion_(held.motion ? &*held.motion : nullptr) {
-    const int r = at.mesh.bodies[held.body];
+  /// `motion` must outlive the constraint.
+  HeldPositionOfBody(const MeshedBeams<D>& at, int body, const Eigen::Vector3d& position,
+                     const std::optional<DisplacementTable>& motion)
+      : body_(body),
+        drawn_(drawn_place(at.structure, Grip::on_body(body)).template head<D>()),
+        away_(position.template head<D>() - drawn_),
+        motion_(motion ? &*motion : nullptr) {
+    const int r = at.mesh.bodies[body];
     for (int d = 0; d < D; ++d) dofs_.push_back(r + d);
   }
 
@@ -66,7 +67,7 @@ class HeldPositionOfBody {
 
 template <int D, class Add>
 void bind(const HeldBody& held, const MeshedBeams<D>& at, const Eigen::VectorXd&, Add&& add) {
-  add(HeldPositionOfBody<D>(at, held));
+  add(HeldPositionOfBody<D>(at, held.body, held.position, held.motion));
 }
 
 }  // namespace nurbeam

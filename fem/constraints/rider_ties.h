@@ -1,4 +1,5 @@
 #pragma once
+#include "fem/constraints/axes_on_section.h"
 #include "fem/constraints/body_on_guide.h"
 #include "fem/constraints/body_on_node.h"
 #include "fem/constraints/body_on_point.h"
@@ -26,6 +27,21 @@ void bind_body(int j, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn, Ad
   if (at.structure.riders[j].stands_apart()) add(BodyOnNode<D>(at, j));
 }
 
+/// Binds the attitude of a rigid body to the section where its rider is.
+template <class Section, class Add>
+void bind_axes(int j, const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, Add&& add) {
+  if (at.structure.riders[j].follows == Follows::section) return add(AxesOnSection<Section, 3>(at, drawn, j));
+  add(AxesOnSection<Section, 2>(at, drawn, j));
+}
+template <class Add>
+void bind_attitude(int j, const MeshedBeams<3>& at, const Eigen::VectorXd& drawn, Add&& add) {
+  const Rider& rider = at.structure.riders[j];
+  if (rider.follows == Follows::nothing) return;
+  if (at.structure.beam_of(rider).rigid) return bind_axes<GuideSection>(j, at, drawn, add);
+  if (at.mesh.plan.modes[j] == Carried::node) return bind_axes<FollowedNode>(j, at, drawn, add);
+  bind_axes<FollowedPoint>(j, at, drawn, add);
+}
+
 /// Constraints of the riders, as the mesh carries them.
 template <int D>
 struct RiderTies {
@@ -50,6 +66,7 @@ struct RiderTies {
     if constexpr (D == 3)
       if (mode == Carried::node && !rider.continuous_slope && at.structure.beam_of(rider).has_torsion())
         add(PassedRoll(at, j));
+    if constexpr (D == 3) bind_attitude(j, at, binding.drawn, add);
     if (rider.direction && mode == Carried::node) add(HeldSlope<D>(at, j));
     const int place = at.mesh.riders[j].place;
     if (mode == Carried::stopped || binding.holds(j) || at.mesh.plan.holds(j))

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "fem/forces/body_drag.h"
+#include "fem/forces/body_load.h"
 #include "fem/forces/buffer_force.h"
 #include "fem/forces/custom_force.h"
 #include "fem/forces/field_force.h"
@@ -14,6 +15,7 @@
 #include "fem/forces/place_mass.h"
 #include "fem/forces/point_load.h"
 #include "fem/forces/point_mass.h"
+#include "fem/forces/rigid_inertia.h"
 #include "fem/forces/roll_inertia.h"
 #include "fem/forces/sliding_friction.h"
 #include "fem/forces/spring.h"
@@ -29,18 +31,18 @@
 /// for_each_node(visit).
 namespace nurbeam {
 
-using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce>;
+using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, CustomForce, BodyLoad>;
 
 /// The kinds of forces in either dimension, and `Others` besides.
 template <int D, class... Others>
 using ForceList =
     std::variant<PointMass<D>, BoundPlaceMass<D>, Spring<D>, BodyDrag<D>, BufferForce<D>, SlidingFriction<D>,
                  PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, FlowForce<D>, PointLoad,
-                 Moment, LineLoad, LineTorque, BoundCustomForce<D>, Others...>;
+                 Moment, LineLoad, LineTorque, BoundCustomForce<D>, BoundBodyLoad<D>, Others...>;
 template <int D>
-using BoundForce =
-    std::conditional_t<D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll>,
-                       ForceList<D>>;
+using BoundForce = std::conditional_t<
+    D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll, RigidInertia>,
+    ForceList<D>>;
 
 template <int D, class... F>
 consteval bool all_keep_offers(const std::variant<F...>*) {
@@ -56,7 +58,7 @@ static_assert(all_keep_offers<3>(static_cast<BoundForce<3>*>(nullptr)),
 template <int D>
 using ForceSources =
     TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>, Spring<D>,
-             PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, FlowForce<D>>;
+             PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, FlowForce<D>, RigidInertia>;
 
 /// A description in a mesh: itself, or its Bound<D>.
 template <int D, class Description>

@@ -27,8 +27,13 @@ Eigen::VectorXd planned_places(const Mesh& mesh) {
 Eigen::VectorXd drawn_coordinates(const Structure& structure, const Mesh& mesh) {
   const int D = mesh.dimension;
   Eigen::VectorXd q = planned_places(mesh);
-  for (std::size_t body = 0; body < structure.bodies.size(); ++body)
-    q.segment(mesh.bodies[body], D) = structure.bodies[body].position.head(D);
+  for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
+    const Body& body = structure.bodies[i];
+    q.segment(mesh.bodies[i], D) = body.position.head(D);
+    if (!body.rigid) continue;
+    const Eigen::Quaterniond& attitude = body.rigid->attitude;
+    q.segment<4>(mesh.attitudes[i]) << attitude.w(), attitude.vec();
+  }
   for (std::size_t b = 0; b < mesh.nodes.size(); ++b)
     for (const MeshNode& node : mesh.nodes[b]) {
       const ReferenceCurve& curve = structure.beams[b].curve;

@@ -15,6 +15,7 @@ class Numbering {
     mesh_.memory = MemoryPlaces(structure);
     mesh_.riders.assign(structure.riders.size(), {-1, -1});
     mesh_.bodies.assign(structure.bodies.size(), -1);
+    mesh_.attitudes.assign(structure.bodies.size(), -1);
     std::size_t most = structure.riders.size();
     for (const Beam& beam : structure.beams) most += beam.home.size();
     mesh_.spans.reserve(most);
@@ -34,7 +35,10 @@ class Numbering {
       body_position(structure_.riders[j].body);
       if (plan_.modes[j] != Carried::free) mesh_.riders[j].place = take(1);
     }
-    for (std::size_t body = 0; body < structure_.bodies.size(); ++body) body_position(static_cast<int>(body));
+    for (std::size_t body = 0; body < structure_.bodies.size(); ++body) {
+      body_position(static_cast<int>(body));
+      if (structure_.bodies[body].rigid) mesh_.attitudes[body] = take(4);
+    }
     mesh_.coordinate_count = next_;
     return std::move(mesh_);
   }

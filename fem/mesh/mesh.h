@@ -53,7 +53,9 @@ struct Mesh {
   std::vector<int> first_span;  ///< per beam, plus the total count
   std::vector<MeshRider> riders;
   std::vector<int> bodies;  ///< first of D position coordinates of each body
-  MemoryPlaces memory;      ///< indices in State::memory
+  /// First of the 4 coordinates of the attitude of each body, -1 for a point mass.
+  std::vector<int> attitudes;
+  MemoryPlaces memory;  ///< indices in State::memory
   int coordinate_count = 0;
 
   const MeshNode& node_a(const MeshSpan& span) const { return nodes[span.beam][span.node_a]; }

@@ -173,6 +173,30 @@ int ModelBuilder::add_body(std::string name, double mass, const Eigen::Vector3d&
   return static_cast<int>(model_.bodies.size()) - 1;
 }
 
+int ModelBuilder::add_rigid_body(std::string name, double mass, const Eigen::Matrix3d& inertia,
+                                 const Eigen::Vector3d& position) {
+  if (model_.dimension != 3)
+    throw std::invalid_argument("rigid body \"" + name + "\" needs a model in space");
+  const int body = add_body(std::move(name), mass, position);
+  model_.bodies[body].rigid = RigidBody{.inertia = inertia};
+  return body;
+}
+
+int ModelBuilder::add_point(std::string name, int body, const Eigen::Vector3d& position) {
+  const Body& of = this->body(body);
+  if (!of.rigid) throw std::invalid_argument("body \"" + of.name + "\" is a point mass, which has no places");
+  const Eigen::Vector3d arm = position - of.position, now = of.position + of.rigid->attitude * arm;
+  model_.bodies.push_back({.name = std::move(name), .mass = 0, .position = now});
+  model_.bodies.back().point_of = BodyPoint{body, arm};
+  return static_cast<int>(model_.bodies.size()) - 1;
+}
+
+Body& ModelBuilder::body(int i) {
+  if (i < 0 || i >= static_cast<int>(model_.bodies.size()))
+    throw std::invalid_argument("there is no body " + std::to_string(i));
+  return model_.bodies[i];
+}
+
 Rider& ModelBuilder::slide(int body, int beam, double s, double speed) {
   if (body < 0 || body >= static_cast<int>(model_.bodies.size()))
     refuse("there is no body " + std::to_string(body) + "; the model has " +

@@ -51,6 +51,14 @@ class ModelBuilder {
   /// Adds a body that no rider places.
   int add_body(std::string name, double mass, const Eigen::Vector3d& position,
                const Eigen::Vector3d& velocity = {0, 0, 0});
+  /// Adds a rigid body that no rider places, with its inertia about its centre of mass [kg m^2], which is at
+  /// `position`; its own axes are those of the model as drawn.
+  int add_rigid_body(std::string name, double mass, const Eigen::Matrix3d& inertia,
+                     const Eigen::Vector3d& position);
+  /// Adds a place of a rigid body, at `position` as drawn, and returns the number of the body that it is.
+  int add_point(std::string name, int body, const Eigen::Vector3d& position);
+  /// Gives access to a body before build().
+  Body& body(int i);
   /// Puts a body on a beam, to slide along it; returns the rider, so that its settings can be changed.
   Rider& slide(int body, int beam, double s, double speed = 0);
 

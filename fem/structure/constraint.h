@@ -2,6 +2,7 @@
 #include <variant>
 
 #include "fem/structure/beam_joint.h"
+#include "fem/structure/body_joint.h"
 #include "fem/structure/carried_body.h"
 #include "fem/structure/held_body.h"
 #include "fem/structure/support.h"
@@ -14,6 +15,6 @@ namespace nurbeam {
 /// Optional: for_each_node(visit), which calls visit(beam, s, mark) for places that keep a node, where
 /// mark(home node) records why; `from_outside`, if the reaction comes from no other part of the model;
 /// `motion`, an optional table of prescribed displacements with rows().
-using Constraint = std::variant<Support, BeamJoint, HeldBody, CarriedBody>;
+using Constraint = std::variant<Support, BeamJoint, HeldBody, CarriedBody, BodyJoint>;
 
 }  // namespace nurbeam

@@ -11,12 +11,14 @@
 #include "fem/structure/mass_field.h"
 #include "fem/structure/place_motion.h"
 #include "fem/structure/reel.h"
+#include "fem/structure/rigid_body.h"
 #include "fem/structure/stop.h"
 #include "fem/time_table.h"
 
 namespace nurbeam {
 
-/// A point mass with coordinates of its own: on no beam, on one, or where two beams cross.
+/// A point mass with coordinates of its own, on no beam, on one, or where two beams cross; a rigid body, or a
+/// place of one.
 struct Body {
   std::string name;
   double mass;  ///< [kg]
@@ -24,6 +26,8 @@ struct Body {
   Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
   double roll_inertia = 0;  ///< about the tangent of a section that it follows [kg m^2]
   double drag_area = 0;     ///< C_d A, of the drag of the air [m^2]
+  std::optional<RigidBody> rigid = {};
+  std::optional<BodyPoint> point_of = {};  ///< the rigid body that carries it, a point without mass
 };
 
 /// The treatment of a sliding body in a search for the static equilibrium.
@@ -33,6 +37,14 @@ enum class StaticPlace {
   held,
   free,
   free_or_held  ///< free; held before a motion for which no rest is found with it free
+};
+
+/// What of the attitude of a rigid body goes with the section of the beam at its point.
+enum class Follows {
+  nothing,
+  axis,     ///< an axis of the body keeps its direction in the section
+  tangent,  ///< an axis of the body stays along the beam
+  section   ///< all of it
 };
 
 /// A rider ties a body to a moving place on a beam.
@@ -50,6 +62,9 @@ struct Rider {
   bool follows_section = false;
   bool sharp = false;  ///< as HomeNode::sharp, where the slope is continuous
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+
+  Follows follows = Follows::nothing;
+  Eigen::Vector3d follow_axis = Eigen::Vector3d::UnitX();  ///< as the bodies start, for Follows::axis
 
   StaticPlace rest = StaticPlace::automatic;
   std::optional<Friction> friction = {};
@@ -82,6 +97,11 @@ struct Structure {
 
   const Beam& beam_of(const Rider& rider) const { return beams[rider.beam]; }
   const Body& body_of(const Rider& rider) const { return bodies[rider.body]; }
+  /// The rigid body that a rider carries, by its centre or by a place of it; -1 for a point mass.
+  int turning_body(const Rider& rider) const {
+    const Body& body = body_of(rider);
+    return body.rigid ? rider.body : body.point_of ? body.point_of->body : -1;
+  }
   /// Reference length on the reel of a rider whose mouth is at s [m].
   double stored_length(const Rider& rider, double s) const {
     const ReferenceCurve& curve = beam_of(rider).curve;

@@ -245,6 +245,8 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> Assembly<D>::reaction(int i, const S
           const auto y = multipliers.segment(row, constraint.rows);
           if constexpr (offers_of<decltype(constraint)>.couple)
             couple += constraint.couple(at, state, y);
+          else if constexpr (requires { constraint.force(state, y); })
+            force += constraint.force(state, y);
           else if constexpr (offers_of<decltype(constraint)>.force)
             force += constraint.force(y);
           else
@@ -464,12 +466,20 @@ double Assembly<D>::step_limit(const State& state) const {
     if (closing > 0)
       limit = std::min(limit, largest_slide * (span.end(state.q) - span.start(state.q)) / closing);
   }
+  constexpr double largest_turn = 0.6;  // of a rigid body in a step [rad]; its spin is 2 |dp/dt|
+  for (const int p : mesh_.attitudes)
+    if (p >= 0)
+      if (const double rate = 2 * state.v.segment<4>(p).norm(); rate > 0)
+        limit = std::min(limit, largest_turn / rate);
   return limit;
 }
 
 template <int D>
 bool Assembly<D>::admissible(const State& state) const {
   constexpr double shortest = 1e-3;  // part of the element's length when the mesh was made
+  constexpr double near = 0.1;       // of 1, for the length of an attitude
+  for (const int p : mesh_.attitudes)
+    if (p >= 0 && std::abs(state.q.segment<4>(p).squaredNorm() - 1) > near) return false;
   if constexpr (D == 3)
     for (const MeshElement<D>& e : elements_)
       if (e.twist && !e.twist->element.admissible(gather_twist(e, state.q))) return false;
@@ -485,6 +495,8 @@ Eigen::VectorXd Assembly<D>::coordinate_scale() const {
   double longest = 0;
   for (const Beam& beam : model_->beams) longest = std::max(longest, beam.curve.length());
   for (const int r : mesh_.bodies) scale.segment<D>(r).setConstant(longest > 0 ? longest : 1);
+  for (const int p : mesh_.attitudes)
+    if (p >= 0) scale.segment<4>(p).setConstant(0.5);
   for (std::size_t b = 0; b < mesh_.nodes.size(); ++b) {
     const double length = model_->beams[b].curve.length();
     for (const MeshNode& node : mesh_.nodes[b]) {

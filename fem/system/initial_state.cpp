@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "fem/mesh/attitude.h"
 #include "fem/mesh/drawn_coordinates.h"
 #include "fem/system/assembly.h"
 #include "fem/system/material_points.h"
@@ -148,6 +149,9 @@ void start_moving(const BeamSystem& system, State& state) {
   state.v.setZero();
   for (std::size_t body = 0; body < model.bodies.size(); ++body)
     state.v.segment(mesh.bodies[body], D) = model.bodies[body].velocity.head(D);
+  for (std::size_t body = 0; body < model.bodies.size(); ++body)
+    if (const int p = mesh.attitudes[body]; p >= 0)
+      state.v.segment<4>(p) = attitude::rate(state.q.segment<4>(p), model.bodies[body].rigid->spin);
   for (std::size_t j = 0; j < mesh.riders.size(); ++j) {
     const MeshRider& at = mesh.riders[j];
     if (mesh.plan.modes[j] == Carried::free) continue;

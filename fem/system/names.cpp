@@ -78,6 +78,9 @@ std::vector<std::string> coordinate_names(const BeamSystem& system) {
   }
   for (int i = 0; i < static_cast<int>(mesh.bodies.size()); ++i)
     name_vector(names, mesh.bodies[i], D, model.bodies[i].name);
+  for (int i = 0; i < static_cast<int>(mesh.bodies.size()); ++i)
+    for (int k = 0; k < 4 && mesh.attitudes[i] >= 0; ++k)
+      names[mesh.attitudes[i] + k] = model.bodies[i].name + ".q" + "wxyz"[k];
   for (int j = 0; j < static_cast<int>(mesh.riders.size()); ++j)
     name_number(names, mesh.riders[j].place, place_name(model, model.riders[j]));
   for (std::size_t i = 0; i < names.size(); ++i)

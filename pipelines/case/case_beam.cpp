@@ -167,7 +167,7 @@ void check_torsion(const Json& json, const std::string& path, const CaseBeam& be
     findings.error(child(path, key), why + "; leave one of them out");
   };
   for (const auto& [asks, key] :
-       {std::pair{has(json, "orientation"), "orientation"},
+       {std::pair{has(json, "orientation") && !beam.rigid, "orientation"},
         std::pair{beam.section.second_moments.has_value(), "section.second_moments"}})
     if (asks && !beam.torsion) refuse(key, "is for beams with torsion, but \"torsion\" is false");
   if (!beam.torsion) return;
@@ -250,7 +250,7 @@ void check_guide(const Json& json, const CaseBeam& beam, Findings& findings) {
     return;
   }
   static const std::set<std::string> known = {
-      "name", "axis", "rigid", "closed", "corners", "smooth_up_to", "approximation_tolerance"};
+      "name", "axis", "rigid", "closed", "corners", "smooth_up_to", "approximation_tolerance", "orientation"};
   for (const auto& [key, value] : json.items())
     if (!known.contains(key) && is_key_of_beams(key))
       findings.error(child(beam.path, key),
@@ -332,7 +332,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   if (beam.corners == Corners::smooth && !has(json, "smooth_up_to")) beam.smooth_angle = default_smooth_angle;
   beam.axial_strain = read_axial_strain(json, path, beam, findings);
   if (!has(json, "torsion"))
-    beam.torsion = has(json, "orientation") || beam.section.second_moments.has_value();
+    beam.torsion = !beam.rigid && (has(json, "orientation") || beam.section.second_moments.has_value());
   const bool may_take_it =
       (beam.stress_free == StressFree::automatic || beam.stress_free == StressFree::as_drawn) &&
       beam.curvature == CurvatureMeasure::material && beam.metric == Metric::arc_length &&

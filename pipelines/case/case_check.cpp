@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
 
 #include "nurbs/number_text.h"
@@ -56,10 +57,14 @@ std::string expected(const Shape& shape) {
   switch (shape.kind) {
     case Kind::object:
       return "an object with " + quoted_list(key_names(shape));
+    case Kind::map:
+      return "an object { \"name\": value, ... }, each value " + expected(shape.items[0]);
     case Kind::array:
       return expected_array(shape);
     case Kind::either:
-      return expected(shape.items[0]) + ", or " + expected(shape.items[1]);
+      return std::accumulate(
+          shape.items.begin() + 1, shape.items.end(), expected(shape.items[0]),
+          [](const std::string& so_far, const Shape& item) { return so_far + ", or " + expected(item); });
     case Kind::choice:
       return "one of " + quoted_list(shape.choices);
     case Kind::text:
@@ -83,6 +88,7 @@ std::string expected(const Shape& shape) {
 bool fits_json_type(const Shape& shape, const Json& value) {
   switch (shape.kind) {
     case Kind::object:
+    case Kind::map:
       return value.is_object();
     case Kind::array:
     case Kind::vector:
@@ -116,8 +122,9 @@ std::string word_here(const std::string& word) {
 }
 
 bool is_place(const Shape& shape) {
-  return shape.kind == Kind::either && shape.items[1].kind == Kind::object &&
-         find_key(shape.items[1], "fraction") && find_key(shape.items[1], "near");
+  return shape.kind == Kind::either && shape.items[0].kind == Kind::choice &&
+         shape.items[1].kind == Kind::object && find_key(shape.items[1], "fraction") &&
+         find_key(shape.items[1], "near");
 }
 
 bool may_have_rows(const Shape& shape) {
@@ -153,6 +160,8 @@ class Checker {
     switch (shape.kind) {
       case Kind::object:
         return check_object(shape, value, path);
+      case Kind::map:
+        return check_map(shape, value, path);
       case Kind::array:
         return check_array(shape, value, path);
       case Kind::either:
@@ -217,6 +226,17 @@ class Checker {
       else if (given.empty() && alternatives.required && whole_)
         findings_.error(path, "give one of " + quoted_list(alternatives.keys));
     }
+  }
+
+  bool check_map(const Shape& shape, Json& value, const std::string& path) {
+    if (!value.is_object()) return wrong_type(shape, value, path);
+    for (auto& [name, item] : value.items()) {
+      Json as_text = name;
+      if (!check_text({.kind = Kind::name}, as_text, child(path, name)) ||
+          !check(shape.items[0], item, child(path, name)))
+        item = nullptr;
+    }
+    return true;
   }
 
   bool check_array(const Shape& shape, Json& value, const std::string& path) {
@@ -368,6 +388,10 @@ class Checker {
 
 bool check_shape(const Shape& shape, Json& value, Findings& findings) {
   return Checker(findings, true).check(shape, value, "");
+}
+
+bool check_shape(const Shape& shape, Json& value, const std::string& path, Findings& findings) {
+  return Checker(findings, true).check(shape, value, path);
 }
 
 bool check_part(const Shape& shape, Json& value, Findings& findings) {

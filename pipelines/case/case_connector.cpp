@@ -92,6 +92,7 @@ void check_length(const CaseConnector& connector, const CaseAnalysis& analysis, 
 
 // Every body is held, and placed, by sliding joints or connectors.
 void check_body(const CaseBody& body, const CaseFile& c, Findings& findings) {
+  if (!body.point_of.empty()) return;
   std::vector<const CaseSlidingJoint*> joints;
   for (const CaseSlidingJoint& joint : c.sliding_joints)
     if (joint.body == body.name) joints.push_back(&joint);
@@ -103,10 +104,13 @@ void check_body(const CaseBody& body, const CaseFile& c, Findings& findings) {
   const auto is_on_body = [&](const auto& carried) { return carried.on == body.name; };
   const bool carries_ring =
       std::ranges::any_of(c.eyelets, is_on_body) || std::ranges::any_of(c.reels, is_on_body);
-  if (joints.empty() && !connected && !carries_ring)
+  if (body.inertia && joints.empty() && !body.position)
+    findings.error(body.path, "nothing says where the rigid body " + in_quotes(body.name) +
+                                  " is; give the \"position\" of its centre of mass as drawn");
+  if (!body.inertia && joints.empty() && !connected && !carries_ring)
     findings.error(body.path, "no sliding joint and no connector holds the body " + in_quotes(body.name) +
                                   "; add one to \"sliding_joints\" or \"connectors\", or remove the body");
-  else if (joints.empty() && !carries_ring && !body.position)
+  else if (!body.inertia && joints.empty() && !carries_ring && !body.position)
     findings.error(body.path, "the body " + in_quotes(body.name) +
                                   " slides on no beam, so that nothing says where it starts; give its "
                                   "\"position\"");

@@ -13,6 +13,7 @@
 #include "pipelines/case/case_overrides.h"
 #include "pipelines/case/case_references.h"
 #include "pipelines/case/host_keys.h"
+#include "pipelines/case/rigid_bodies.h"
 #include "pipelines/case/table_files.h"
 #include "pipelines/diagnostics/closest_name.h"
 
@@ -39,10 +40,14 @@ void check_axis(const std::optional<Eigen::Vector3d>& axis, const Json& json, co
 }
 
 CaseLoad read_load(const Json& json, const std::string& path, Findings& findings) {
+  for (const char* key : {"force", "moment", "follower"})
+    if (json.contains(key) && !json.contains("at"))
+      findings.error(path, in_quotes(key) + " needs \"at\" beside it");
   return read_item(load_fields(), json, path, findings);
 }
 
 CaseSupport read_support(const Json& json, const std::string& path, Findings& findings) {
+  if (!json.contains("at")) findings.error(path, "\"at\" is missing (where)");
   CaseSupport support = read_item(support_fields(), json, path, findings);
   check_axis(support.axis, json, path, "pinned", findings);
   const bool guided = support.type == CaseSupport::Type::guided;
@@ -135,6 +140,11 @@ CaseStop read_stop(const Json& json, const std::string& path, Findings& findings
 
 CaseBeamJoint read_beam_joint(const Json& json, const std::string& path, Findings& findings) {
   CaseBeamJoint joint = read_item(beam_joint_fields(), json, path, findings);
+  if (const std::string type = text(json, "type"); type != "hinged" && type != "rigid")
+    findings.error(child(path, "type"),
+                   "is " + in_quotes(type) +
+                       ", which joins a rigid body to something, by \"between\"; beams are "
+                       "joined \"hinged\" or \"rigid\"");
   check_axis(joint.axis, json, path, "hinged", findings);
   return joint;
 }
@@ -143,7 +153,9 @@ CaseBody read_body(const Json& json, const std::string& path, bool has_air, Find
   if (has(json, "drag_area") && !has_air)
     findings.error(child(path, "drag_area"),
                    "needs the \"air\" that drags; at sea level it has a \"density\" of 1.225");
-  return read_item(body_fields(), json, path, findings);
+  CaseBody body = read_item(body_fields(), json, path, findings);
+  check_rigid_body(body, findings);
+  return body;
 }
 
 // Whether gravity pulls towards a point.
@@ -200,16 +212,32 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
       list.push_back(read(item, path, findings));
     });
   };
-  read_all("loads", result.loads, read_load);
-  read_all("supports", result.supports, read_support);
+  // Of beams, or else of bodies; loads count through both.
+  const auto read_either = [&](const char* key, auto& of_beams, auto read, auto& of_bodies, const char* mark,
+                               auto read_of_body) {
+    for_each_item(json, key, "", [&](const Json& item, const std::string& path) {
+      const auto take = [&](auto& list, auto read_one) {
+        const std::size_t number = of_beams.size() + of_bodies.size();
+        list.push_back(read_one(item, path, findings));
+        if constexpr (requires { list.back().number; }) list.back().number = static_cast<int>(number);
+      };
+      if (has(item, mark))
+        take(of_bodies, read_of_body);
+      else
+        take(of_beams, read);
+    });
+  };
+  read_either("loads", result.loads, read_load, result.body_loads, "body", read_body_load);
+  read_either("supports", result.supports, read_support, result.body_joints, "body", read_body_support);
   read_all("sliding_joints", result.sliding_joints, read_sliding_joint);
   read_all("eyelets", result.eyelets, read_eyelet);
   read_all("reels", result.reels, read_reel);
   read_all("stops", result.stops, read_stop);
-  read_all("joints", result.joints, read_beam_joint);
+  read_either("joints", result.joints, read_beam_joint, result.body_joints, "between", read_body_joint);
   read_all("connectors", result.connectors, read_connector);
   read_all("collectors", result.collectors, read_collector);
   add_fastenings(result);
+  add_body_points(result, findings);
   result.laws = read_laws(json);
   const bool nothing_deforms = std::ranges::all_of(result.beams, &CaseBeam::rigid);
   result.analysis = read_analysis(part(json, "analysis"), nothing_deforms, findings);

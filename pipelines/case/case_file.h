@@ -22,6 +22,7 @@
 #include "pipelines/case/parts/beam.h"
 #include "pipelines/case/parts/beam_joint.h"
 #include "pipelines/case/parts/body.h"
+#include "pipelines/case/parts/body_joint.h"
 #include "pipelines/case/parts/collector.h"
 #include "pipelines/case/parts/connector.h"
 #include "pipelines/case/parts/eyelet.h"
@@ -67,6 +68,8 @@ struct CaseFile {
   std::vector<CaseReel> reels;
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
+  std::vector<CaseBodyJoint> body_joints;  ///< and supports of bodies
+  std::vector<CaseBodyLoad> body_loads;
   std::vector<CaseConnector> connectors;
   std::vector<CaseCollector> collectors;
   CaseAnalysis analysis;

@@ -58,31 +58,32 @@ std::string Range::rule() const {
 }
 
 const Shape& case_keys() {
-  static const Shape shape =
-      object({{"$schema", any_text(), "for editors; ignored"},
-              {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
-               "version of the case-file format", required},
-              {"name", any_text(), "title of the case; the file's name when omitted"},
-              {"gravity", either(vector(Dimension::acceleration, plausible(-1e6, 1e6)), attraction()),
-               "acceleration of gravity, or what attracts towards a point; [0, 0, -9.81] when omitted"},
-              {"frame", frame(), "in which all is told, where that turns; it stands when omitted"},
-              {"air", air(), "what drags on bodies with a `drag_area`; none when omitted"},
-              {"beams", array(beam_fields().shape(), 1), "the beams", required},
-              {"bodies", array(body_fields().shape()),
-               "point masses: each slides on a beam or on several that cross, or hangs on connectors"},
-              {"loads", short_array(load_fields().shape()), "forces and moments"},
-              {"supports", array(support_fields().shape()), "where beams are held"},
-              {"sliding_joints", array(sliding_joint_fields().shape()), "which body slides on which beam"},
-              {"eyelets", array(eyelet_fields().shape()), "rings and pulleys that beams run through"},
-              {"reels", array(reel_fields().shape()), "drums and spools at ends of beams"},
-              {"stops", array(stop_fields().shape()), "what sliding bodies come up against"},
-              {"joints", array(beam_joint_fields().shape()), "which beams are joined to each other"},
-              {"connectors", short_array(connector_fields().shape()),
-               "springs, ropes and rods between bodies, beams and points"},
-              {"collectors", array(collector_fields().shape()),
-               "pantographs: sprung masses that press on a wire and travel along it"},
-              {"analysis", analysis_shape(), "what to compute", required},
-              {"output", output_shape(), "what to store"}});
+  static const Shape shape = object(
+      {{"$schema", any_text(), "for editors; ignored"},
+       {"nurbeam", integer({.lower = 1, .upper = 1, .reason = "this version reads format 1"}),
+        "version of the case-file format", required},
+       {"name", any_text(), "title of the case; the file's name when omitted"},
+       {"gravity", either(vector(Dimension::acceleration, plausible(-1e6, 1e6)), attraction()),
+        "acceleration of gravity, or what attracts towards a point; [0, 0, -9.81] when omitted"},
+       {"frame", frame(), "in which all is told, where that turns; it stands when omitted"},
+       {"air", air(), "what drags on bodies with a `drag_area`; none when omitted"},
+       {"beams", array(beam_fields().shape()), "the beams; rigid bodies move without one too"},
+       {"bodies", array(body_fields().shape()),
+        "point masses and rigid bodies: they slide on beams, hang on connectors, are joined, or fly freely"},
+       {"loads", short_array(load_fields().shape()), "forces and moments"},
+       {"supports", array(support_fields().shape()), "where beams and bodies are held"},
+       {"sliding_joints", array(sliding_joint_fields().shape()), "which body slides on which beam"},
+       {"eyelets", array(eyelet_fields().shape()), "rings and pulleys that beams run through"},
+       {"reels", array(reel_fields().shape()), "drums and spools at ends of beams"},
+       {"stops", array(stop_fields().shape()), "what sliding bodies come up against"},
+       {"joints", array(beam_joint_fields().shape()),
+        "which beams are joined to each other, and bodies to what"},
+       {"connectors", short_array(connector_fields().shape()),
+        "springs, ropes and rods between bodies, beams and points"},
+       {"collectors", array(collector_fields().shape()),
+        "pantographs: sprung masses that press on a wire and travel along it"},
+       {"analysis", analysis_shape(), "what to compute", required},
+       {"output", output_shape(), "what to store"}});
   return shape;
 }
 

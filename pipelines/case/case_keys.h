@@ -31,6 +31,7 @@ struct Alternatives {
 struct Shape {
   enum class Kind {
     object,    ///< `keys`, `alternatives`
+    map,       ///< an object of any names, each with `items[0]`
     array,     ///< of `items[0]`, at least `min_items`, at most `most_items`
     either,    ///< the one of `items` that fits the value's JSON type
     choice,    ///< one of `choices`

@@ -71,6 +71,16 @@ std::optional<std::vector<std::string>> names_under(const Json& json, const char
   return names;
 }
 
+/// The names of the bodies and, as "body.point", of the points of rigid ones.
+std::optional<std::vector<std::string>> bodies_and_points(const Json& json) {
+  std::optional<std::vector<std::string>> names = names_under(json, "bodies");
+  if (!names) return names;
+  for (const Json& body : part(json, "bodies"))
+    for (const auto& [point, place] : part(body, "points").items())
+      names->push_back(text(body, "name") + "." + point);
+  return names;
+}
+
 bool is_one_of(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -101,20 +111,23 @@ void check_references(const Json& json, const Json& holder, const char* key, con
       });
 }
 
-/// The same of both ends of every connector.
-void check_connector_ends(const Json& json, const char* reference, const std::vector<std::string>& known,
-                          Findings& findings) {
+/// The same of both ends of every connector, and of what joints join to bodies.
+void check_ends(const Json& json, const char* reference, const std::vector<std::string>& known,
+                Findings& findings) {
+  const auto check = [&](const Json& end, const std::string& path) {
+    const std::string name = text(end, reference);
+    if (!name.empty() && !is_one_of(name, known) && !is_beam_of_chain(name, json))
+      findings.error(child(path, reference), "there is no " + std::string(reference) + " " + in_quotes(name) +
+                                                 known_names(name, known));
+  };
   for_each_item(
       json, "connectors", "",
       [&](const Json& connector, const std::string& path) {
-        for (const char* end : {"from", "to"}) {
-          const std::string name = text(part(connector, end), reference);
-          if (!name.empty() && !is_one_of(name, known) && !is_beam_of_chain(name, json))
-            findings.error(
-                child(child(path, end), reference),
-                "there is no " + std::string(reference) + " " + in_quotes(name) + known_names(name, known));
-        }
+        for (const char* end : {"from", "to"}) check(part(connector, end), child(path, end));
       });
+  for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
+    for_each_item(joint, "between", path, check);
+  });
 }
 
 void check_references(const Json& json, Findings& findings) {
@@ -133,7 +146,7 @@ void check_references(const Json& json, Findings& findings) {
     check_references(json, json, "stops", "", "beam", *beams, findings);
     for (const char* key : {"probes", "clearances"})
       check_references(json, part(json, "output"), key, "output", "beam", *beams, findings);
-    check_connector_ends(json, "beam", *beams, findings);
+    check_ends(json, "beam", *beams, findings);
     for_each_item(json, "joints", "", [&](const Json& joint, const std::string& path) {
       for_each_item(joint, "beams", path, [&](const Json& name, const std::string& name_path) {
         if (!is_one_of(name, *beams) && !is_beam_of_chain(name, json))
@@ -142,7 +155,7 @@ void check_references(const Json& json, Findings& findings) {
       });
     });
   }
-  if (const auto bodies = names_under(json, "bodies")) {
+  if (const auto bodies = bodies_and_points(json)) {
     check_references(json, json, "sliding_joints", "", "body", *bodies, findings);
     for (const char* key : {"eyelets", "reels"})
       for_each_item(json, key, "", [&](const Json& carried, const std::string& path) {
@@ -151,7 +164,9 @@ void check_references(const Json& json, Findings& findings) {
           findings.error(child(path, "on"),
                          "there is no body " + in_quotes(name) + known_names(name, *bodies));
       });
-    check_connector_ends(json, "body", *bodies, findings);
+    check_ends(json, "body", *bodies, findings);
+    for (const char* key : {"loads", "supports"})
+      check_references(json, json, key, "", "body", *bodies, findings);
     for_each_item(json, "stops", "", [&](const Json& stop, const std::string& path) {
       for_each_item(stop, "bodies", path, [&](const Json& name, const std::string& name_path) {
         if (!is_one_of(name, *bodies))
@@ -333,6 +348,10 @@ void check_brep(const CaseFile& c, Findings& findings) {
 }  // namespace
 
 void check_across(const Json& json, const CaseFile& case_file, Findings& findings) {
+  if (case_file.beams.empty() &&
+      std::ranges::none_of(case_file.bodies, [](const CaseBody& body) { return body.inertia.has_value(); }))
+    findings.error("",
+                   "\"beams\" is missing (the beams), and there are no rigid bodies, which move without one");
   check_names(json, findings);
   check_references(json, findings);
   check_connectors(case_file, findings);

@@ -68,17 +68,25 @@ Json file_schema(const Shape& shape) {
           {"additionalProperties", false}};
 }
 
+Json any_of(const std::vector<Shape>& items) {
+  Json schemas = Json::array();
+  for (const Shape& item : items) schemas.push_back(schema_of(item));
+  return schemas;
+}
+
 Json schema_of(const Shape& shape) {
   switch (shape.kind) {
     case Kind::object:
       return object_schema(shape);
+    case Kind::map:
+      return {{"type", "object"}, {"additionalProperties", schema_of(shape.items[0])}};
     case Kind::array:
       return {{"type", "array"},
               {"items", schema_of(shape.items[0])},
               {"minItems", shape.min_items},
               {"maxItems", shape.most_items}};
     case Kind::either:
-      return {{"anyOf", {schema_of(shape.items[0]), schema_of(shape.items[1])}}};
+      return {{"anyOf", any_of(shape.items)}};
     case Kind::choice:
       return {{"enum", shape.choices}};
     case Kind::text:

@@ -27,6 +27,8 @@ inline Shape object(std::vector<Key> keys, std::vector<Alternatives> alternative
 inline Shape array(Shape item, int min_items = 0) {
   return {.kind = Kind::array, .items = {std::move(item)}, .min_items = min_items};
 }
+/// Of any names.
+inline Shape map(Shape item) { return {.kind = Kind::map, .items = {std::move(item)}}; }
 /// What every step goes through: more are most likely a distribution.
 inline Shape short_array(Shape item) {
   Shape shape = array(std::move(item));
@@ -96,5 +98,10 @@ inline Shape place() {
                "near"}},
              {{{"length", "fraction", "near"}, required}}));
 }
+
+/// A place of a beam, or one of a body: the name of one of its points, or a point as drawn.
+inline Shape place_of_grip() { return {.kind = Kind::either, .items = {name(), place().items[1], point()}}; }
+/// The direction of an axis.
+inline Shape direction() { return vector(Dimension::number, plausible(-1e9, 1e9)); }
 
 }  // namespace nurbeam::shapes

@@ -108,11 +108,13 @@ const char* step_hint(StepStatus status) {
 // That a model without supports moves as a whole.
 std::string unsupported_text(const BeamModel& model) {
   constexpr std::size_t most = 3;
-  std::string beams;
-  for (std::size_t b = 0; b < std::min(most, model.beams.size()); ++b)
-    beams += (b == 0 ? "\"" : ", \"") + model.beams[b].name + "\"";
-  return "the model has no support: nothing holds beam " + beams +
-         (model.beams.size() > most ? ", ..." : "") +
+  std::vector<std::string> names;
+  for (const Beam& beam : model.beams) names.push_back("beam \"" + beam.name + "\"");
+  for (const Body& body : model.bodies)
+    if (body.rigid) names.push_back("body \"" + body.name + "\"");
+  std::string first;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) first += (i == 0 ? "" : ", ") + names[i];
+  return "the model has no support: nothing holds " + first + (names.size() > most ? ", ..." : "") +
          (model.riders.empty() ? "" : " with what slides on it") + "; add \"supports\"";
 }
 

@@ -31,6 +31,12 @@ std::vector<Asking> asking(const ResolvedCase& resolved) {
   for (const CaseSlidingJoint& joint : resolved.sliding_joints)
     if (joint.follows_section)
       all.push_back({joint.beam, joint.path + ".follows_section", "a body follows the section where it is"});
+  for (const CaseSlidingJoint& joint : resolved.sliding_joints)
+    if (joint.follows != Follows::nothing)
+      all.push_back({joint.beam, joint.path + ".follows", "a body follows the section where it is"});
+  for (const CaseBodyJoint& joint : resolved.body_joints)
+    if (!joint.between[1].beam.empty() && joint.type != CaseBodyJoint::Type::ball)
+      all.push_back({joint.between[1].beam, joint.path + ".type", "a body's attitude is held by a section"});
   return all;
 }
 
@@ -41,6 +47,7 @@ void give_asked_torsion(ResolvedCase& resolved, Findings& findings) {
     const std::size_t index = resolved.beam_index(ask.beam);
     if (index >= resolved.beams.size()) continue;  // said elsewhere
     CaseBeam& beam = resolved.beams[index];
+    if (beam.rigid) continue;  // its sections are geometry
     if (beam.torsion_by_drawing) beam.torsion = true;
     if (!beam.torsion)
       findings.error(ask.path, ask.what + "; beam \"" + ask.beam +

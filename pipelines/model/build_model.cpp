@@ -15,6 +15,8 @@
 #include "pipelines/model/asked_torsion.h"
 #include "pipelines/model/beam_axis.h"
 #include "pipelines/model/beam_section.h"
+#include "pipelines/model/bodies.h"
+#include "pipelines/model/body_start.h"
 #include "pipelines/model/cad_files.h"
 #include "pipelines/model/check_drawing.h"
 #include "pipelines/model/check_freedom.h"
@@ -73,6 +75,9 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
       forces.push_back(beam.velocity->translation);
       moments.push_back(beam.velocity->rotation);
     }
+  const bool turns =
+      std::ranges::any_of(resolved.bodies, [](const CaseBody& body) { return body.inertia.has_value(); });
+  if (segments.empty()) return {.origin = resolved.bodies.front().position.value_or(Eigen::Vector3d::Zero())};
   // Points besides the axes are in the plane of a planar model too.
   const Eigen::Vector3d origin = segments.front().point(0);
   for (const CaseConnector& connector : resolved.connectors) {
@@ -82,7 +87,7 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   }
   for (const CaseBody& body : resolved.bodies) {
     if (body.position) forces.push_back(*body.position - origin);
-    forces.push_back(body.velocity);
+    if (body.velocity) forces.push_back(*body.velocity);
   }
   for (const CaseEyelet& eyelet : resolved.eyelets) {
     if (eyelet.position) forces.push_back(*eyelet.position - origin);
@@ -103,7 +108,7 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
       for (int d = 0; d < 3; ++d) forces.emplace_back(Eigen::Vector3d::Unit(d));
   const bool torsion = std::any_of(resolved.beams.begin(), resolved.beams.end(),
                                    [](const CaseBeam& beam) { return beam.torsion; });
-  return model_frame(segments, forces, moments, torsion);
+  return model_frame(segments, forces, moments, torsion || turns);
 }
 
 bool is_curved(const ReferenceCurve& curve) { return curve.largest_curvature() * curve.length() > 1e-9; }
@@ -170,10 +175,21 @@ bool turns_back(const CaseBeam& from, const ReferenceCurve& curve, const ModelFr
   return false;
 }
 
-// The curve with the sections of the beam, where it has torsion.
-ReferenceCurve oriented(const CaseBeam& from, ReferenceCurve curve, const ModelFrame& frame,
-                        Findings& findings) {
-  if (!from.torsion || turns_back(from, curve, frame, findings)) return curve;
+// Whether a beam needs sections: for torsion, or a guide for bodies that follow them.
+bool needs_sections(const ResolvedCase& resolved, const CaseBeam& from) {
+  return from.torsion ||
+         (from.rigid && std::ranges::any_of(
+                            resolved.sliding_joints,
+                            [&](const CaseSlidingJoint& joint) {
+                              return joint.beam == from.name &&
+                                     (joint.follows != Follows::nothing || joint.follows_section);
+                            }));
+}
+
+// The curve with the sections of the beam, where it needs them.
+ReferenceCurve oriented(const ResolvedCase& resolved, const CaseBeam& from, ReferenceCurve curve,
+                        const ModelFrame& frame, Findings& findings) {
+  if (!needs_sections(resolved, from) || turns_back(from, curve, frame, findings)) return curve;
   try {
     return curve.oriented(from.orientation);
   } catch (const std::invalid_argument& problem) {
@@ -297,7 +313,7 @@ Beam beam_of(const ResolvedCase& resolved, const CaseBeam& from, const Reference
   check_thrust(resolved, from, curve, properties, findings);
   const ReferenceCurve stress_free = is_straight(from, curve, findings) ? curve.straightened() : curve;
   return {.name = from.name,
-          .curve = oriented(from, stress_free, frame, findings),
+          .curve = oriented(resolved, from, stress_free, frame, findings),
           .properties = properties,
           .section = sizes,
           .material = material,
@@ -349,7 +365,7 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     if (!drawn) break;
     if (from.rigid) {
       built.model.beams.push_back({.name = from.name,
-                                   .curve = drawn->curve,
+                                   .curve = oriented(resolved, from, drawn->curve, built.frame, findings),
                                    .properties = {},
                                    .rigid = true,
                                    .home = guide_nodes(drawn->curve)});
@@ -394,7 +410,10 @@ std::vector<std::vector<double>> divide_beams(const ResolvedCase& resolved,
                         findings);
     held.insert(held.end(), joined.places[b].begin(), joined.places[b].end());
     const double same = same_place * beams[b].measured.length();
-    for (const double s : connector_places(resolved, static_cast<int>(b), beams[b], findings))
+    std::vector<double> gripped = connector_places(resolved, static_cast<int>(b), beams[b], findings);
+    const std::vector<double> joints = body_joint_places(resolved, static_cast<int>(b), beams[b], findings);
+    gripped.insert(gripped.end(), joints.begin(), joints.end());
+    for (const double s : gripped)
       if (std::none_of(held.begin(), held.end(), [&](double t) { return std::abs(t - s) <= same; }))
         held.push_back(s);
     built.model.beams[b].home = with_stored_nodes(
@@ -475,15 +494,20 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   check_joined_supports(resolved, beams, joined, findings);
   if (findings.has_errors()) return {};
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
-  built.loads.resize(case_file.loads.size());
+  built.loads.resize(case_file.loads.size() + case_file.body_loads.size());
   add_loads(resolved, beams, built.frame, built.model, built.loads, findings);
+  add_bodies(resolved, built.frame, built.model, findings);
   add_sliding_joints(resolved, beams, joined, built.frame, built.model, built.motions, findings);
+  if (!findings.has_errors()) place_body_points(resolved, built.frame, built.model, findings);
+  if (!findings.has_errors()) add_body_joints(resolved, beams, built.frame, built.model, findings);
+  if (!findings.has_errors()) add_body_loads(resolved, built.frame, built.model, built.loads, findings);
   if (!findings.has_errors()) add_eyelets(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_reels(resolved, beams, held, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors())
     built.collectors = add_collectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
+  if (!findings.has_errors()) start_bodies(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
   set_flows(resolved, built.model, findings);

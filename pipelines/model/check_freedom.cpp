@@ -7,6 +7,7 @@
 
 #include "fem/mesh/stop_distance.h"
 #include "fem/system/initial_state.h"
+#include "fem/system/names.h"
 #include "fem/system/observables.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
@@ -17,7 +18,8 @@ namespace nurbeam {
 
 namespace {
 
-bool contains(const std::vector<int>& values, int value) {
+template <class T>
+bool contains(const std::vector<T>& values, const T& value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
@@ -109,6 +111,30 @@ class FreedomCheck {
           "body " + in_quotes(model_.bodies[body].name) + " slides on several beams, but " + where +
               "these hold it in more ways than it can move, and nothing says which bears what; let it slide "
               "on one of them, or let one of them deform");
+    refuse_joints(system, set, where);
+  }
+
+  // What holds a rigid body in more ways than it can move: a second hinge of a door, a fourth wheel.
+  void refuse_joints(const BeamSystem& system, const DependentConstraints& set, const std::string& where) {
+    const std::vector<std::string> names = row_names(system);
+    std::vector<std::string> parts;
+    for (const int row : set.rows) {
+      const std::string name = names[row].substr(0, names[row].find('['));
+      if (!contains(parts, name)) parts.push_back(name);
+    }
+    std::string path = "bodies";
+    std::size_t number = 0;
+    for (const Constraint& constraint : model_.constraints)
+      if (const auto* joint = std::get_if<BodyJoint>(&constraint)) {
+        const std::string& of = resolved_.body_joints[number++].path;
+        if (contains(parts, joint->reaction_name(model_))) path = of;
+      }
+    if (parts.empty()) return;
+    findings_.error(
+        path, where + quoted_list(parts) +
+                  " hold bodies in more ways than these can move, and nothing says which bears "
+                  "what; let one be a ball (\"pinned\" or \"hinged\" without an \"axis\") or free along a "
+                  "line (\"guided\", \"cylinder\"), or put a stiff spring in its place");
   }
 
   // What of a set has a name, as ": the rod "a", the place of body "b"".
@@ -139,7 +165,11 @@ void check_freedom(const ResolvedCase& resolved, const BeamModel& model, Finding
   bool shared = false;
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
     shared = shared || joints_of(model, body).size() > 1;
-  if (!has_rods && !shared) return;
+  const bool joined = std::ranges::any_of(
+      model.constraints, [](const Constraint& each) { return std::holds_alternative<BodyJoint>(each); });
+  const bool on_wheels =
+      std::ranges::any_of(model.riders, [&](const Rider& rider) { return model.turning_body(rider) >= 0; });
+  if (!has_rods && !shared && !joined && !on_wheels) return;
   FreedomCheck check(resolved, model, findings);
   const bool moves = resolved.analysis.type == CaseAnalysis::Type::dynamic;
   const bool rests = !moves || resolved.analysis.start_from_equilibrium;

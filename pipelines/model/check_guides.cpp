@@ -23,7 +23,9 @@ void check_guides(const ResolvedCase& resolved, Findings& findings) {
   for (const CaseSlidingJoint& joint : resolved.sliding_joints) {
     if (joint.slope == SlopeRule::discontinuous)
       refuse(joint.beam, joint.path + ".slope", "it has no kink at a body; use \"continuous\"");
-    if (joint.follows_section)
+    const bool of_point_mass = resolved.bodies[resolved.body_index(joint.body)].point_of.empty() &&
+                               !resolved.bodies[resolved.body_index(joint.body)].inertia;
+    if (joint.follows_section && of_point_mass)
       refuse(joint.beam, joint.path + ".follows_section", "it has no sections; leave this out");
   }
   const bool only_guides = std::all_of(resolved.beams.begin(), resolved.beams.end(),

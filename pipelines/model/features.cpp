@@ -160,6 +160,13 @@ void add_constraint(const Constraint& constraint, const BeamModel& model, Named&
                           const std::string ring = ring_name(carried.body, model);
                           named.add(ring);
                           named.add(ring + " on a body");
+                        },
+                        [&](const BodyJoint& joint) {
+                          named.add("joint of a body");
+                          named.add("joint that holds a body's attitude", !joint.pairs.empty());
+                          named.add("body that slides on a line", joint.slide.has_value());
+                          named.add("body held by a beam", joint.to.beam >= 0);
+                          named.add("moved support", joint.motion.has_value());
                         }},
              constraint);
 }
@@ -188,7 +195,12 @@ void add_force(const Force& force, Named& named) {
                           named.add("load over time", !load.time.empty());
                         },
                         [&](const PlaceMass&) { named.add("mass at a place"); },
-                        [&](const CustomForce&) { named.add("force of a program"); }},
+                        [&](const CustomForce&) { named.add("force of a program"); },
+                        [&](const BodyLoad& load) {
+                          named.add(load.is_moment ? "moment on a body" : "force on a body");
+                          named.add("load that turns with a body", load.follower);
+                          named.add("load over time", !load.time.empty());
+                        }},
              force);
 }
 
@@ -206,6 +218,9 @@ Features features_of(const BeamModel& model) {
   for (const Beam& beam : model.beams) add_beam(beam, named);
   for (const Rider& rider : model.riders) add_rider(rider, model, named);
   for (const Body& body : model.bodies) {
+    named.add("rigid body", body.rigid.has_value());
+    named.add("rotor", body.rigid && !body.rigid->rotor.isZero(0));
+    named.add("place of a rigid body", body.point_of.has_value());
     named.add("air drag", body.drag_area > 0 && model.air.density > 0);
     named.add("wind", body.drag_area > 0 && model.air.density > 0 && !model.air.wind.isZero(0));
   }
@@ -240,6 +255,8 @@ const Features& all_features() {
                             "axial strain: assumed",
                             "axial strain: pointwise",
                             "beam that runs in its shape",
+                            "body held by a beam",
+                            "body that slides on a line",
                             "brake",
                             "buckling",
                             "buffer",
@@ -270,6 +287,7 @@ const Features& all_features() {
                             "eyelet on a path",
                             "follows the section",
                             "force of a program",
+                            "force on a body",
                             "force per length",
                             "force that drives a pulley",
                             "fork",
@@ -287,15 +305,19 @@ const Features& all_features() {
                             "integrator: generalized-alpha",
                             "integrator: radau",
                             "integrator: rk4",
+                            "joint of a body",
+                            "joint that holds a body's attitude",
                             "law: green",
                             "law: hooke",
                             "law: rows",
                             "load over time",
                             "load that moves",
+                            "load that turns with a body",
                             "load that turns with the beam",
                             "mass at a place",
                             "modes",
                             "moment",
+                            "moment on a body",
                             "motion",
                             "motion from an equilibrium",
                             "moved support",
@@ -303,6 +325,7 @@ const Features& all_features() {
                             "pinned",
                             "pinned joint",
                             "pipe bends",
+                            "place of a rigid body",
                             "plane",
                             "point force",
                             "prescribed place",
@@ -311,13 +334,15 @@ const Features& all_features() {
                             "reel on a body",
                             "reel on a path",
                             "release",
+                            "rigid body",
                             "rigid joint",
                             "rigid track",
                             "ring",
                             "rod",
                             "rope wound under tension",
-                            "sliding body",
+                            "rotor",
                             "sleeve",
+                            "sliding body",
                             "slope discontinuity of a rope",
                             "space",
                             "spool",

@@ -12,10 +12,13 @@ namespace {
 
 // The factor of a load over time; in load steps time is the load factor. What goes with it is the place of a
 // force that moves, which is there in full.
-TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
-  if (!load.time.empty() || load.moving_speed || analysis.load_factors.empty()) return load.time;
+TimeTable time_of(const TimeTable& time, const CaseAnalysis& analysis) {
+  if (!time.empty() || analysis.load_factors.empty()) return time;
   const double last = std::max(1.0, analysis.load_factors.back());
   return {{0, 0}, {last, last}};
+}
+TimeTable time_of(const CaseLoad& load, const CaseAnalysis& analysis) {
+  return load.moving_speed ? load.time : time_of(load.time, analysis);
 }
 
 // That of a force or a moment at a place.
@@ -85,11 +88,10 @@ LineLoad projected_load(const CaseLoad& load, int b, const Beam& beam, const Eig
 
 void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
                BeamModel& model, std::vector<std::vector<int>>& forces_of_loads, Findings& findings) {
-  for (std::size_t i = 0; i < resolved.loads.size(); ++i) {
-    const CaseLoad& load = resolved.loads[i];
+  for (const CaseLoad& load : resolved.loads) {
     const int b = resolved.beam_index(load.beam);
     const DrawnBeam& beam = beams[b];
-    forces_of_loads[resolved.load_numbers[i]].push_back(static_cast<int>(model.forces.size()));
+    forces_of_loads[load.number].push_back(static_cast<int>(model.forces.size()));
     switch (load.kind) {
       case CaseLoad::Kind::force:
         model.forces.push_back(PointLoad{
@@ -114,6 +116,29 @@ void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
         model.forces.push_back(LineTorque{b, load.torque, time_of(load, resolved.analysis)});
         break;
     }
+  }
+}
+
+void add_body_loads(const ResolvedCase& resolved, const ModelFrame& frame, BeamModel& model,
+                    std::vector<std::vector<int>>& forces_of_loads, Findings& findings) {
+  for (const CaseBodyLoad& load : resolved.body_loads) {
+    const int body = resolved.body_index(load.on.body);
+    const Body& of = model.bodies[body];
+    const int turns = of.rigid ? body : of.point_of ? of.point_of->body : -1;
+    if (turns < 0 && (load.is_moment || load.follower)) {
+      findings.error(load.path + (load.is_moment ? ".moment" : ".follower"),
+                     "is of what turns, but body \"" + of.name +
+                         "\" is a point mass, which does not; give it an \"inertia\"");
+      continue;
+    }
+    forces_of_loads[load.number].push_back(static_cast<int>(model.forces.size()));
+    model.forces.push_back(BodyLoad{
+        .body = body,
+        .turns = turns,
+        .is_moment = load.is_moment,
+        .value = load.is_moment ? frame.moment_to_local(load.value) : frame.direction_to_local(load.value),
+        .follower = load.follower,
+        .time = time_of(load.time, resolved.analysis)});
   }
 }
 

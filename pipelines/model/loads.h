@@ -14,4 +14,8 @@ namespace nurbeam {
 void add_loads(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
                BeamModel& model, std::vector<std::vector<int>>& forces_of_loads, Findings& findings);
 
+/// The same of loads on bodies, which the model has.
+void add_body_loads(const ResolvedCase& resolved, const ModelFrame& frame, BeamModel& model,
+                    std::vector<std::vector<int>>& forces_of_loads, Findings& findings);
+
 }  // namespace nurbeam

@@ -29,6 +29,11 @@ void check_field(const ResolvedCase& resolved, Findings& findings) {
       findings.error(beam.path + ".torsion",
                      "is true, but the sections of a beam with torsion do not feel \"" + key +
                          "\"; give \"torsion\": false, or leave \"" + key + "\" out");
+  for (const CaseBody& body : resolved.bodies)
+    if (body.inertia && resolved.field->attraction != 0)
+      findings.error(body.path + ".inertia",
+                     "makes a rigid body, whose turning does not feel a point that attracts; tell all in a "
+                     "\"frame\" that goes round with it and has a \"gravity_gradient\"");
   constexpr double far = 1e6;  // [m]
   if (!turns && resolved.field->centre.norm() > far)
     findings.warn("gravity.centre", "is " + text_of(resolved.field->centre.norm(), 3) +

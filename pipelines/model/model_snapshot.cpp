@@ -66,7 +66,13 @@ Snapshot to_world(const ModelFrame& f, Snapshot frame) {
 SnapshotNames snapshot_names(const BuiltModel& built) {
   SnapshotNames names;
   for (const Probe& probe : built.probes) names.probes.push_back(probe.name);
+  const auto is_rigid = [](const Body& body) { return body.rigid.has_value(); };
   for (const Body& body : built.model.bodies) names.bodies.push_back(body.name);
+  if (std::ranges::any_of(built.model.bodies, is_rigid))
+    for (const Body& body : built.model.bodies) {
+      names.rigid.push_back(is_rigid(body));
+      names.felt.push_back(is_rigid(body) || body.point_of);
+    }
   for (const Rider& rider : built.model.riders) {
     const bool is_driven = !rider.drive_force.empty() || (rider.reel && rider.motion);
     names.friction = names.friction || rider.friction || is_driven;

@@ -150,28 +150,24 @@ bool check_name(const std::string& name, const std::string& path, const BeamName
   return false;
 }
 
-// What was said of a name is said of every beam that it stands for. Returns which of the items each now is.
+// What was said of a name is said of every beam that it stands for.
 template <class Item>
-std::vector<int> name_each_beam(std::vector<Item>& items, const BeamNames& names,
-                                const std::vector<CaseBeam>& beams, Findings& findings) {
+void name_each_beam(std::vector<Item>& items, const BeamNames& names, const std::vector<CaseBeam>& beams,
+                    Findings& findings) {
   std::vector<Item> each;
-  std::vector<int> numbers;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const Item& item = items[i];
+  for (const Item& item : items) {
     if (!check_name(item.beam, item.path, names, beams, findings)) continue;
     for (const std::string& name : names.at(item.beam)) {
       each.push_back(item);
       each.back().beam = name;
-      numbers.push_back(static_cast<int>(i));
     }
   }
   items = std::move(each);
-  return numbers;
 }
 
 // Loads and supports of a name are those of every beam that it stands for; the rest needs one beam.
 void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findings) {
-  resolved.load_numbers = name_each_beam(resolved.loads, names, resolved.beams, findings);
+  name_each_beam(resolved.loads, names, resolved.beams, findings);
   name_each_beam(resolved.supports, names, resolved.beams, findings);
   // Of an item that is about one beam: what its `key` says of it, and which there are to choose of.
   const auto needs_one = [&](const std::string& name, const std::string& path, const char* key = ".beam",
@@ -194,6 +190,8 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
   for (const CaseConnector& connector : resolved.connectors)
     for (const CaseConnectorEnd& end : connector.ends)
       if (!end.beam.empty()) needs_one(end.beam, end.path);
+  for (const CaseBodyJoint& joint : resolved.body_joints)
+    if (!joint.between[1].beam.empty()) needs_one(joint.between[1].beam, joint.between[1].path);
   each_needs_one(resolved.probes);
   each_needs_one(resolved.clearances);
 }
@@ -212,6 +210,8 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .reels = case_file.reels,
                         .stops = case_file.stops,
                         .joints = case_file.joints,
+                        .body_joints = case_file.body_joints,
+                        .body_loads = case_file.body_loads,
                         .connectors = case_file.connectors,
                         .collectors = case_file.collectors,
                         .probes = case_file.output.probes,

@@ -19,13 +19,14 @@ struct ResolvedCase {
   std::vector<Chain> chains = {};  ///< per beam: indices into the curves of its file; empty for other axes
   std::vector<CaseBody> bodies;
   std::vector<CaseLoad> loads;
-  std::vector<int> load_numbers = {};  ///< per load: which of the case's it is
   std::vector<CaseSupport> supports;
   std::vector<CaseSlidingJoint> sliding_joints;
   std::vector<CaseEyelet> eyelets = {};
   std::vector<CaseReel> reels = {};
   std::vector<CaseStop> stops;
   std::vector<CaseBeamJoint> joints;
+  std::vector<CaseBodyJoint> body_joints = {};
+  std::vector<CaseBodyLoad> body_loads = {};
   std::vector<CaseConnector> connectors;
   std::vector<CaseCollector> collectors = {};
   std::vector<CaseProbe> probes;

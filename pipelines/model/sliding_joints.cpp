@@ -38,6 +38,34 @@ void check_following(const CaseSlidingJoint& joint, Findings& findings) {
     findings.error(joint.path + ".offset", "needs \"follows_section\": true, which turns it with the beam");
 }
 
+// What of a rigid body's attitude goes with the section.
+void set_follows(const CaseSlidingJoint& joint, const ResolvedCase& resolved, const BeamModel& model,
+                 const ModelFrame& frame, Rider& rider, Findings& findings) {
+  const CaseBody& of = resolved.bodies[resolved.body_index(joint.body)];
+  const bool is_rigid = of.inertia || !of.point_of.empty();
+  const Follows follows = joint.follows_section && is_rigid ? Follows::section : joint.follows;
+  if (follows == Follows::nothing) return;
+  const std::string path = joint.path + ".follows";
+  if (!is_rigid)
+    return findings.error(path,
+                          "is of a rigid body, but body \"" + joint.body +
+                              "\" is a point mass, which has no attitude; give it an \"inertia\", or use "
+                              "\"follows_section\"");
+  if (follows == Follows::axis && (!joint.axis || joint.axis->norm() == 0))
+    return findings.error(
+        path, "is \"axis\", which needs the \"axis\" of the body that keeps its direction in the section");
+  const CaseBeam& from = resolved.beams[resolved.beam_index(joint.beam)];
+  if (!from.rigid && !from.torsion)
+    return findings.error(path, "needs the sections of beam \"" + joint.beam +
+                                    "\", which has no torsion; give it \"torsion\": true");
+  rider.follows = follows;
+  rider.follows_section = false;
+  if (!joint.axis) return;
+  const int carrier = resolved.body_index(of.inertia ? of.name : of.point_of);
+  rider.follow_axis =
+      model.bodies[carrier].rigid->attitude * frame.direction_to_local(*joint.axis).normalized();
+}
+
 // Small vibrations have no friction.
 void check_friction(const CaseSlidingJoint& joint, const CaseAnalysis& analysis, Findings& findings) {
   if (!joint.friction) return;
@@ -116,10 +144,6 @@ Eigen::Vector3d body_velocity(const Rider& joint, const BeamModel& model) {
   return material_velocity(joint, model) + speed * model.beam_of(joint).curve.tangent(joint.s);
 }
 
-bool says_speed(const CaseSlidingJoint& joint) {
-  return joint.speed || joint.motion.is_given() || joint.release;
-}
-
 std::string velocity_text(const Eigen::Vector3d& local, const ModelFrame& frame) {
   const Eigen::Vector3d v = frame.direction_to_world(local);
   return "[" + text_of(v.x(), 4) + ", " + text_of(v.y(), 4) + ", " + text_of(v.z(), 4) + "] m/s";
@@ -132,7 +156,7 @@ void share_speeds(const std::vector<CaseSlidingJoint>& from, const ModelFrame& f
   const auto share = [&](std::size_t i, std::size_t j) {
     Rider& joint = model.riders[j];
     const Eigen::Vector3d along = body_velocity(model.riders[i], model) - material_velocity(joint, model);
-    if (says_speed(from[i]) && !says_speed(from[j]))
+    if (from[i].says_speed() && !from[j].says_speed())
       joint.speed = along.dot(model.beam_of(joint).curve.tangent(joint.s));
   };
   for (std::size_t j = 0; j < model.riders.size(); ++j)
@@ -163,23 +187,6 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
   if (resolved.analysis.is_explicit() && !resolved.sliding_joints.empty())
     findings.error("analysis.integrator.type",
                    "\"rk4\" is for models without sliding joints; use \"generalized-alpha\" or \"radau\"");
-  for (const CaseBody& body : resolved.bodies) {
-    model.bodies.push_back({.name = body.name,
-                            .mass = body.mass,
-                            .position = body.position ? frame.to_local(*body.position)
-                                                      : Eigen::Vector3d(Eigen::Vector3d::Zero()),
-                            .velocity = frame.direction_to_local(body.velocity),
-                            .roll_inertia = body.roll_inertia,
-                            .drag_area = body.drag_area});
-    const bool follows =
-        std::any_of(resolved.sliding_joints.begin(), resolved.sliding_joints.end(),
-                    [&](const CaseSlidingJoint& j) { return j.body == body.name && j.follows_section; });
-    if (body.roll_inertia > 0 && !follows)
-      findings.error("bodies",
-                     "body \"" + body.name +
-                         "\" has a \"roll_inertia\", but follows no section: give its sliding joint "
-                         "\"follows_section\": true");
-  }
   for (const CaseSlidingJoint& joint : resolved.sliding_joints) {
     const int b = resolved.beam_index(joint.beam);
     const ReferenceCurve& curve = beams[b].curve;
@@ -196,13 +203,15 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
                 .offset = joint.offset.value_or(Eigen::Vector2d::Zero()),
                 .rest = joint.rest,
                 .friction = analysis.has_modes() ? std::nullopt : joint.friction,
-                .as_point = joint.as_point};
+                .as_point = joint.as_point,
+                .turning_inertia = joint.rolling_mass};
     if (joint.as_point && joint.slope == SlopeRule::discontinuous)
       findings.error(
           joint.path + ".carried_as",
           "is \"point\", but the slope is \"discontinuous\", and inside an element there is no kink; use "
           "\"node\", or \"slope\": \"continuous\"");
     check_following(joint, findings);
+    set_follows(joint, resolved, model, frame, added, findings);
     check_friction(joint, analysis, findings);
     check_release(joint, analysis, findings);
     for (std::size_t i = 0; i < resolved.bodies.size(); ++i)

@@ -25,16 +25,27 @@ FrameReader::FrameReader(const std::filesystem::path& file)
   if (file_.has_dimension("reaction")) names_.reactions = file_.texts("reaction_name");
   if (file_.has_dimension("connector")) names_.connectors = file_.texts("connector_name");
   if (file_.has_dimension("measure")) names_.measures = file_.texts("measure_name");
-  names_.beams = file_.texts("beam_name");
+  if (file_.has_dimension("beam")) names_.beams = file_.texts("beam_name");
   names_.friction = file_.has_variable(std::string("body_") + friction_parts[0].name);
   names_.springs = file_.has_variable("energy_spring");
   names_.sections = file_.has_variable(section_axes[0].name);
   const std::size_t n = file_.size("time"), beams = names_.beams.size();
   if (n == 0) return;
   times_ = file_.doubles("time", {0}, {n});
-  element_counts_ = file_.integers("element_count", {0, 0}, {n, beams});
-  node_counts_ = file_.integers("node_count", {0, 0}, {n, beams});
+  if (beams > 0) {
+    element_counts_ = file_.integers("element_count", {0, 0}, {n, beams});
+    node_counts_ = file_.integers("node_count", {0, 0}, {n, beams});
+  }
   step_counts_ = file_.integers("solver_step_count", {0}, {n});
+  if (file_.has_variable("body_quaternion")) {
+    const std::size_t bodies = names_.bodies.size();
+    const Doubles turns = file_.doubles("body_quaternion", {0, 0, 0}, {1, bodies, 4}),
+                  felt = file_.doubles("body_acceleration", {0, 0, 0}, {1, bodies, 3});
+    for (std::size_t i = 0; i < bodies; ++i) {
+      names_.rigid.push_back(turns[4 * i] != NetcdfFile::fill);
+      names_.felt.push_back(felt[3 * i] != NetcdfFile::fill);
+    }
+  }
   check_counts(file);
 }
 
@@ -72,6 +83,7 @@ std::vector<Snapshot> FrameReader::read(std::size_t first, std::size_t count) co
   read_scalars(first, frames);
   read_points(first, frames);
   read_forces(first, frames);
+  read_turns(first, frames);
   read_elements(first, frames);
   read_nodes(first, frames);
   read_steps(first, frames);
@@ -96,6 +108,7 @@ void FrameReader::read_scalars(std::size_t first, std::vector<Snapshot>& frames)
     for (std::size_t i = 0; i < n; ++i) frames[i].energy.spring = spring[i];
   }
   const std::size_t beams = names_.beams.size();
+  if (beams == 0) return;
   const Doubles length = file_.doubles("beam_length", {first, 0}, {n, beams});
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t b = 0; b < beams; ++b) frames[i].beams[b].length = length[i * beams + b];
@@ -129,6 +142,25 @@ void FrameReader::read_points(std::size_t first, std::vector<Snapshot>& frames) 
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < bodies; ++j)
       if (s[i * bodies + j] != NetcdfFile::fill) frames[i].bodies[j].s = s[i * bodies + j];
+}
+
+// What only rigid bodies and their points have.
+void FrameReader::read_turns(std::size_t first, std::vector<Snapshot>& frames) const {
+  const std::size_t n = frames.size(), bodies = names_.rigid.size();
+  if (bodies == 0) return;
+  const auto values = [&](const char* name, std::size_t size) {
+    return file_.doubles(name, {first, 0, 0}, {n, bodies, size});
+  };
+  const Doubles turns = values("body_quaternion", 4), spins = values("body_angular_velocity", 3),
+                accelerations = values("body_acceleration", 3), factors = values("body_load_factor", 3);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < bodies; ++j) {
+      const std::size_t at = i * bodies + j;
+      const auto vector = [at](const Doubles& of) { return Eigen::Vector3d(of.data() + 3 * at); };
+      if (names_.rigid[j])
+        frames[i].bodies[j].turn = TurnRecord{Eigen::Vector4d(turns.data() + 4 * at), vector(spins)};
+      if (names_.felt[j]) frames[i].bodies[j].felt = FeltRecord{vector(accelerations), vector(factors)};
+    }
 }
 
 // Results of earlier versions have fewer of these.
@@ -202,6 +234,7 @@ void FrameReader::read_forces(std::size_t first, std::vector<Snapshot>& frames) 
 }
 
 void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames) const {
+  if (names_.beams.empty()) return;
   const std::size_t beams = names_.beams.size();
   const auto counts = element_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
   const std::size_t start = sum(element_counts_.begin(), counts);
@@ -244,6 +277,7 @@ void FrameReader::read_elements(std::size_t first, std::vector<Snapshot>& frames
 }
 
 void FrameReader::read_nodes(std::size_t first, std::vector<Snapshot>& frames) const {
+  if (names_.beams.empty()) return;
   const std::size_t beams = names_.beams.size();
   const auto counts = node_counts_.begin() + static_cast<std::ptrdiff_t>(first * beams);
   const std::size_t start = sum(node_counts_.begin(), counts);

@@ -26,6 +26,7 @@ class FrameReader {
   void read_scalars(std::size_t first, std::vector<Snapshot>& frames) const;
   void read_points(std::size_t first, std::vector<Snapshot>& frames) const;
   void read_forces(std::size_t first, std::vector<Snapshot>& frames) const;
+  void read_turns(std::size_t first, std::vector<Snapshot>& frames) const;
   void read_elements(std::size_t first, std::vector<Snapshot>& frames) const;
   void read_nodes(std::size_t first, std::vector<Snapshot>& frames) const;
   void read_steps(std::size_t first, std::vector<Snapshot>& frames) const;

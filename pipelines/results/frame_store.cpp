@@ -21,6 +21,7 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
       measure_count_(names.measures.size()),
       sections_(names.sections),
       springs_(names.springs),
+      turns_(!names.rigid.empty()),
       body_parts_(known_body_parts(names)),
       section_parts_(with_own_axes(section_parts, own_axes_parts, names.sections)),
       beam_extremes_(with_own_axes(beam_extremes, own_axes_extremes, names.sections)),
@@ -42,17 +43,29 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
                    "force along the beam that keeps the body where it is prescribed or has stopped");
     for (const BodyPart& part : body_parts_)
       define_of_time(std::string("body_") + part.name, {"body"}, part.unit, part.long_name);
+    define_turns();
   }
   if (probe_count_ > 0) {
     define_of_time("probe_displacement", {"probe", "xyz"}, "m", "displacement from the drawing");
     for (const SectionPart& part : section_parts_)
       define_of_time(std::string("probe_") + part.name, {"probe"}, part.unit, part.long_name);
   }
-  define_beams(names.beams);
+  if (beam_count_ > 0) define_beams(names.beams);
   define_reactions(names.reactions);
   define_connectors(names.connectors);
   define_measures(names.measures);
   define_steps();
+}
+
+// What only rigid bodies have; missing of the others.
+void FrameStore::define_turns() {
+  if (!turns_) return;
+  file_.define_dimension("wxyz", 4);
+  define_of_time("body_quaternion", {"body", "wxyz"}, "1", "turn of a rigid body from the drawing");
+  define_of_time("body_angular_velocity", {"body", "xyz"}, "rad s-1", "of a rigid body");
+  define_of_time("body_acceleration", {"body", "xyz"}, "m s-2", "of a rigid body or a place of one");
+  define_of_time("body_load_factor", {"body", "xyz"}, "1",
+                 "acceleration less that of gravity along own axes, over 9.80665 m/s^2");
 }
 
 void FrameStore::close() {
@@ -215,12 +228,12 @@ void FrameStore::write(std::span<const Snapshot> frames) {
   write_scalars(each);
   if (probe_count_ > 0) write_probes(each);
   if (body_count_ > 0) write_bodies(each);
-  write_beams(each);
+  if (beam_count_ > 0) write_beams(each);
   if (reaction_count_ > 0) write_reactions(each);
   if (connector_count_ > 0) write_connectors(each);
   if (measure_count_ > 0) write_measures(each);
-  write_elements(frames);
-  write_nodes(frames);
+  if (beam_count_ > 0) write_elements(frames);
+  if (beam_count_ > 0) write_nodes(frames);
   write_steps(frames);
   for (const Snapshot& frame : frames) written_ += rows_of(frame);
   ahead_ = 0;
@@ -286,6 +299,32 @@ void FrameStore::write_bodies(const PerFrame& each) {
   for (const BodyPart& part : body_parts_)
     write(std::string("body_") + part.name, {body_count_},
           [&](Doubles& x, const BodyRecord& body) { x.push_back(filled(body.*part.value)); });
+  if (!turns_) return;
+  const auto append_or_fill = [](Doubles& x, bool is_there, const auto& get, int count) {
+    for (int k = 0; k < count; ++k) x.push_back(is_there ? get()[k] : NetcdfFile::fill);
+  };
+  write(
+      "body_quaternion", {body_count_, 4},
+      [&](Doubles& x, const BodyRecord& body) {
+        append_or_fill(
+            x, body.turn.has_value(), [&] { return body.turn->attitude; }, 4);
+      });
+  write(
+      "body_angular_velocity", {body_count_, 3},
+      [&](Doubles& x, const BodyRecord& body) {
+        append_or_fill(
+            x, body.turn.has_value(), [&] { return body.turn->spin; }, 3);
+      });
+  write(
+      "body_acceleration", {body_count_, 3},
+      [&](Doubles& x, const BodyRecord& body) {
+        append_or_fill(
+            x, body.felt.has_value(), [&] { return body.felt->acceleration; }, 3);
+      });
+  write("body_load_factor", {body_count_, 3}, [&](Doubles& x, const BodyRecord& body) {
+    append_or_fill(
+        x, body.felt.has_value(), [&] { return body.felt->load_factor; }, 3);
+  });
 }
 
 void FrameStore::write_beams(const PerFrame& each) {

@@ -51,6 +51,7 @@ class FrameStore {
   void define_of_time(const std::string& name, std::vector<std::string> dimensions, const std::string& unit,
                       const std::string& long_name, NetcdfFile::Type type = NetcdfFile::Type::real);
   void define_scalars();
+  void define_turns();
   void define_points(const std::string& kind, const std::vector<std::string>& names);
   void define_beams(const std::vector<std::string>& names);
   void define_reactions(const std::vector<std::string>& names);
@@ -73,7 +74,7 @@ class FrameStore {
   std::filesystem::path path_;
   NetcdfFile file_;
   std::size_t probe_count_, body_count_, beam_count_, reaction_count_, connector_count_, measure_count_;
-  bool sections_, springs_;
+  bool sections_, springs_, turns_;
   std::span<const BodyPart> body_parts_;
   std::vector<SectionPart> section_parts_;
   std::vector<BeamExtreme> beam_extremes_;

@@ -1,6 +1,8 @@
 #include "pipelines/results/history_columns.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "pipelines/results/frame_layout.h"
@@ -143,6 +145,45 @@ void add_friction(const SnapshotNames& names, Columns& columns) {
   }
 }
 
+// Angles about z, then about the turned y, then about the twice turned x: yaw, pitch, roll.
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Vector4d& q) {
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  return {std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+          std::asin(std::clamp(2 * (w * y - z * x), -1.0, 1.0)),
+          std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))};
+}
+
+const TurnRecord& turn_of(const BodyRecord& body) {
+  constexpr double none = SectionRecord::no_number;
+  static const TurnRecord no_turn{Eigen::Vector4d::Constant(none), Eigen::Vector3d::Constant(none)};
+  return body.turn ? *body.turn : no_turn;
+}
+const FeltRecord& felt_of(const BodyRecord& body) {
+  constexpr double none = SectionRecord::no_number;
+  static const FeltRecord nothing{Eigen::Vector3d::Constant(none), Eigen::Vector3d::Constant(none)};
+  return body.felt ? *body.felt : nothing;
+}
+
+void add_turns(const SnapshotNames& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.rigid.size(); ++i) {
+    columns.of("body", i, names.bodies[i]);
+    if (names.rigid[i]) {
+      for (int k = 0; k < 4; ++k)
+        columns.add(std::string("q") + "wxyz"[k], "1",
+                    [i, k](const Snapshot& f) { return turn_of(f.bodies[i]).attitude[k]; });
+      for (int k = 0; k < 3; ++k)
+        columns.add(
+            std::array{"roll", "pitch", "yaw"}[k], "rad",
+            [i, k](const Snapshot& f) { return roll_pitch_yaw(turn_of(f.bodies[i]).attitude)[k]; });
+      columns.add_vector("w", "rad/s", [i](const Snapshot& f) { return turn_of(f.bodies[i]).spin; });
+    }
+    if (!names.felt[i]) continue;
+    columns.add_vector(
+        "a", "m/s^2", [i](const Snapshot& f) { return felt_of(f.bodies[i]).acceleration; });
+    columns.add_vector("g_", "1", [i](const Snapshot& f) { return felt_of(f.bodies[i]).load_factor; });
+  }
+}
+
 void add_derived(const SnapshotNames& names, Columns& columns) {
   for (std::size_t i = 0; i < names.probes.size(); ++i) {
     columns.of("probe", i, names.probes[i]);
@@ -215,6 +256,7 @@ std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
   add_connectors(names, columns);
   add_measures(names, columns);
   add_collectors(names, columns);
+  add_turns(names, columns);
   return all;
 }
 

@@ -128,6 +128,7 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, rope_problems());
   append(all, eyelet_problems());
   append(all, reel_problems());
+  append(all, body_problems());
   append(all, collector_problems());
   append(all, rope_motion_problems());
   append(all, sliding_problems());

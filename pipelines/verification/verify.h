@@ -73,6 +73,8 @@ std::vector<VerifyProblem> train_problems();
 std::vector<VerifyProblem> energy_problems();
 std::vector<VerifyProblem> rope_problems();
 std::vector<VerifyProblem> eyelet_problems();
+/// Rigid bodies.
+std::vector<VerifyProblem> body_problems();
 /// Ropes on reels, and masses and tethers in frames that turn.
 std::vector<VerifyProblem> reel_problems();
 std::vector<VerifyProblem> collector_problems();

@@ -158,6 +158,11 @@ class Beam(_Named):
 class Body(_Named):
     """A body of a model, as `model.add_body` returns it; wherever a body is asked for its name does too."""
 
+    def at(self, place: str | npt.ArrayLike) -> dict[str, Any]:
+        """A place of a rigid body, for joints, supports, connectors and loads: one of its `points` by its name, or a point
+        of it as drawn (3,) [m]."""
+        return {"body": self.name, "at": place}
+
 
 def _json(value: Any) -> Any:
     """As JSON can hold it."""
@@ -212,7 +217,8 @@ def _grip(end: Any) -> Any:
     if isinstance(end, Body):
         return {"body": end.name}
     if isinstance(end, Mapping):
-        return {key: _place(value) if key == "at" else value for key, value in end.items()}
+        of_beam = "body" not in end  # of a body it is the name of a point, or a point
+        return {key: _place(value) if key == "at" and of_beam else value for key, value in end.items()}
     if isinstance(end, str):
         return {"body": end}
     return {"point": end}
@@ -272,7 +278,8 @@ class Model:
         `add_...` do this. CaseError for a wrong key or value. Returns the item, which may be changed."""
         if kind not in _case_lists():
             raise TypeError(unknown("list of a case", kind, _case_lists()))
-        item: dict[str, Any] = _json({k: _place(v) if k == "at" else v for k, v in keys.items()})
+        of_body = keys.get("beam") is None and keys.get("body") is not None  # whose place is a name or a point
+        item: dict[str, Any] = _json({k: _place(v) if k == "at" and not of_body else v for k, v in keys.items()})
         _complain(kind, item)
         self.case.setdefault(kind, []).append(item)
         return item
@@ -300,26 +307,33 @@ class Model:
         return Beam(named)
 
     def add_body(self, name: str, mass: Quantity, roll_inertia: Quantity | None = None, **keys: Any) -> Body:
-        """A point mass, which a sliding joint or a connector holds."""
+        """A point mass, which a sliding joint or a connector holds; with `inertia` = [Ixx, Iyy, Izz] [kg m^2] about its
+        centre of mass, which is at `position` as drawn, a rigid body. It has places that are named, `points` = {"rim":
+        (3,) [m], ...}, own `axes`, and starts with `velocity` [m/s], `angular_velocity` [rad/s], and `turned` from the
+        drawing."""
         self.add("bodies", name=name, mass=mass, roll_inertia=roll_inertia, **keys)
         return Body(name)
 
     def add_support(
         self,
-        beam: Beam | str,
-        at: Place,
+        beam: Beam | Body | Mapping[str, Any] | str,
+        at: Place | None = None,
         type: str = "pinned",
         name: str | None = None,
         motion: Any = None,
         axis: npt.ArrayLike | None = None,
         **keys: Any,
     ) -> None:
-        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork". `motion` moves it from
+        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork"; or a body or its
+        `body.at("rim")`, where "pinned" is a ball, and a pin with `axis`. `motion` moves it from
         its drawn place: rows [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or
         this with its first two derivatives; else these are taken by differences over 0.1 ms, also just before time 0.
         A `Signal` of three numbers is its velocity [m/s]."""
         by = self._by_function(motion)
-        self.add("supports", beam=beam, at=at, type=type, name=name, axis=axis, **by, **keys)
+        if isinstance(beam, (Body, Mapping)):
+            self.add("supports", **_grip(beam), type=type, name=name, axis=axis, **by, **keys)
+        else:
+            self.add("supports", beam=beam, at=at, type=type, name=name, axis=axis, **by, **keys)
 
     def add_sliding_joint(
         self,
@@ -419,19 +433,24 @@ class Model:
 
     def add_joint(
         self,
-        beams: Sequence[Beam | str],
+        beams: Sequence[Beam | Body | Mapping[str, Any] | str | npt.ArrayLike],
         type: str,
         at: npt.ArrayLike | Mapping[str, Any] | None = None,
         name: str | None = None,
         axis: npt.ArrayLike | None = None,
         **keys: Any,
     ) -> None:
-        """Joins beams where an end of one meets the other, or near a point [m]: "hinged" or "rigid"."""
-        self.add("joints", beams=beams, type=type, at=at, name=name, axis=axis, **keys)
+        """Joins beams where an end of one meets the other, or near a point [m]: "hinged" or "rigid". With a rigid body
+        among them, it joins two of bodies, `body.at("rim")`, {"beam": ..., "at": ...} and points in space: also
+        "universal" with `axes`, "cylinder" and "slide" along `axis`."""
+        if any(isinstance(each, (Body, Mapping)) for each in beams):
+            self.add("joints", between=[_grip(each) for each in beams], type=type, name=name, axis=axis, **keys)
+        else:
+            self.add("joints", beams=beams, type=type, at=at, name=name, axis=axis, **keys)
 
     def add_load(
         self,
-        beam: Beam | str,
+        beam: Beam | Body | Mapping[str, Any] | str,
         at: Place | None = None,
         force: Any = None,
         moment: Any = None,
@@ -442,12 +461,14 @@ class Model:
         time: Any = None,
         **keys: Any,
     ) -> Load:
-        """A force [N] or moment [N m] at a position, or a force [N/m] or torque [N m/m] per length, or a force per length as
+        """A force [N] or moment [N m] at a position, or on a body or its `body.at("rim")`; or a force [N/m] or torque
+        [N m/m] per length, or a force per length as
         seen along it (`force_per_projected_length`: snow, ice). `time`: rows
         [time, factor]; `follower`: it turns with the section; `moves`: {"speed": ...}; `offset`: [x, y] from the axis."""
+        on = _grip(beam) if isinstance(beam, (Body, Mapping)) else {"beam": beam, "at": at}
         self.add(
             "loads",
-            beam=beam, at=at, force=force, moment=moment, force_per_length=force_per_length,
+            **on, force=force, moment=moment, force_per_length=force_per_length,
             force_per_projected_length=force_per_projected_length,
             torque_per_length=torque_per_length, follower=follower, time=time, **keys,
         )  # fmt: skip

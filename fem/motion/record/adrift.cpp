@@ -20,6 +20,11 @@ std::vector<int> tied_groups(const BeamModel& model) {
     const int kept = std::min(group[a], group[b]), gone = std::max(group[a], group[b]);
     std::replace(group.begin(), group.end(), gone, kept);
   }
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (const std::optional<BodyPoint>& point = model.bodies[i].point_of) {
+      const int kept = std::min(group[i], group[point->body]), gone = std::max(group[i], group[point->body]);
+      std::replace(group.begin(), group.end(), gone, kept);
+    }
   return group;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/mesh/attitude.h"
 #include "fem/motion/record/adrift.h"
 #include "fem/motion/record/element_peaks.h"
 #include "fem/motion/record/measures.h"
@@ -214,6 +215,24 @@ ReactionRecord record_reaction(const BeamSystem& system, const State& state, int
   return {r, given.force, given.couple};
 }
 
+std::optional<TurnRecord> record_turn(const BeamSystem& system, const State& state, int body) {
+  const int p = system.mesh().attitudes[body];
+  if (p < 0) return {};
+  const Eigen::Vector4d attitude = state.q.segment<4>(p);
+  return TurnRecord{attitude, attitude::spin(attitude, state.v.segment<4>(p))};
+}
+
+std::optional<FeltRecord> record_felt(const BeamSystem& system, const State& state, int body) {
+  const Body& of = system.model().bodies[body];
+  const int carrier = of.rigid ? body : of.point_of ? of.point_of->body : -1;
+  if (carrier < 0) return {};
+  constexpr double standard_gravity = 9.80665;  // [m/s^2]
+  const Eigen::Vector3d a = vector_at(system, state.a, system.mesh().bodies[body]);
+  const Eigen::Vector3d own = attitude::turned_back<double>(
+      state.q.segment<4>(system.mesh().attitudes[carrier]), a - system.model().gravity);
+  return FeltRecord{a, system.model().bodies[carrier].rigid->axes.transpose() * own / standard_gravity};
+}
+
 PointRecord record_body(const BeamSystem& system, const State& state, int body) {
   const int r = system.mesh().bodies[body];
   return {vector_at(system, state.q, r), vector_at(system, state.v, r)};
@@ -264,8 +283,11 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
     snapshot.probes.push_back(is_stored(system, state, probes[i]) ? empty_probe()
                               : contents.sections                 ? record_probe(system, state, probes[i])
                                                                   : record_place(system, state, probes[i]));
-  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body)
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
+    snapshot.bodies.back().turn = record_turn(system, state, body);
+    snapshot.bodies.back().felt = record_felt(system, state, body);
+  }
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
     BodyRecord& body = snapshot.bodies[model.riders[j].body];
     if (const auto s = place(system, state, j)) body.s = model.beam_of(model.riders[j]).curve.wrapped(*s);

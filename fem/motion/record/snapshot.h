@@ -47,6 +47,19 @@ struct ProbeRecord : PointRecord {
   SectionRecord section;
 };
 
+/// How a rigid body turns.
+struct TurnRecord {
+  Eigen::Vector4d attitude;  ///< quaternion (w, x, y, z) of the turn from the drawing [-]
+  Eigen::Vector3d spin;      ///< along the axes of the model [rad/s]
+};
+
+/// What is felt in a rigid body, or at a place of one.
+struct FeltRecord {
+  Eigen::Vector3d acceleration;  ///< [m/s^2]
+  /// Acceleration less that of gravity, along the body's own axes, over the standard one, 9.80665 m/s^2 [-].
+  Eigen::Vector3d load_factor;
+};
+
 struct BodyRecord {
   PointRecord point;
   std::optional<double> s;      ///< empty after it has left its beam [m]
@@ -56,7 +69,9 @@ struct BodyRecord {
   /// (0); force of the drive that prescribes its place. NaN without friction or drive [N], [-], [N].
   double friction_force = SectionRecord::no_number, stuck = SectionRecord::no_number,
          drive_force = SectionRecord::no_number;
-  bool adrift = false;  ///< it has left its beam, or hangs on a body that has (bodies_adrift)
+  bool adrift = false;                  ///< it has left its beam, or hangs on a body that has (bodies_adrift)
+  std::optional<TurnRecord> turn = {};  ///< of a rigid body
+  std::optional<FeltRecord> felt = {};  ///< of a rigid body and of a place of one
 };
 
 /// Force and couple of a support on its beam, or of the second of two joined beams on the first.
@@ -120,6 +135,8 @@ struct SnapshotNames {
   std::vector<std::string> measures;  ///< with their quantity: "cable.sag_1", "ground.clearance"
   /// Whether beams have torsion, so that results include the sections' own axes.
   bool sections = false;
+  /// Per body: whether it is a rigid body, and whether it is one or a place of one; empty: none is.
+  std::vector<bool> rigid = {}, felt = {};
   /// Whether bodies have friction; whether the model has elastic parts other than beams.
   bool friction = false, springs = false;
 };

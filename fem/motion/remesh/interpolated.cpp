@@ -152,8 +152,10 @@ std::vector<std::pair<int, int>> take_nodes(const State& state, const Mesh& old,
 void take_bodies(const State& state, const Mesh& old, const Mesh& mesh, State& next) {
   const int D = mesh.dimension;
   KeptCoordinates kept(state, next);
-  for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
+  for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
     kept.take(mesh.bodies[body], old.bodies[body], D);
+    if (mesh.attitudes[body] >= 0) kept.take(mesh.attitudes[body], old.attitudes[body], 4);
+  }
   for (std::size_t j = 0; j < mesh.riders.size(); ++j)
     if (mesh.riders[j].place >= 0 && old.riders[j].place >= 0)
       kept.take(mesh.riders[j].place, old.riders[j].place, 1);

@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/case/parts/slope.h"
+#include "pipelines/case/parts/grip.h"
 
 namespace nurbeam {
 
@@ -17,21 +17,41 @@ struct CaseBeamJoint {
 inline Fields<CaseBeamJoint> beam_joint_fields() {
   using namespace shapes;
   using J = CaseBeamJoint;
-  return {{
-      field(&J::beams, "beams", array(name(), 2), "the beams that meet").needed(),
-      choice_field(&J::rigid, "type", {{"hinged", false}, {"rigid", true}},
-                   "rigid: the angle between them stays")
-          .needed(),
-      field_by<J>("at", object({{"near", point(), "a point near the joint", required}}),
-                  "where, if not at an end of one of them",
-                  [](const Json& json, const std::string&, J& joint, Findings&) {
-                    if (const Json* near = value_under(json, "near")) take(*near, joint.near);
-                  }),
-      field(&J::axis, "axis", vector(Dimension::number),
-            "as drawn, of a hinge between beams with torsion, which turn about it alone"),
-      slope_field(&J::slope),
-      field(&J::name, "name", name(), "heads the columns of its forces"),
-  }};
+  Shape pair = array(grip_fields().shape(), 2);
+  pair.most_items = 2;
+  Shape axes = array(direction(), 2);
+  axes.most_items = 2;
+  return {
+      {
+          field(&J::beams, "beams", array(name(), 2), "the beams that meet"),
+          field_by<J>("between", pair,
+                      "a rigid body and what it is joined to: another body, a beam or a point in space",
+                      [](const Json&, const std::string&, J&, Findings&) {}),
+          field_by<J>(
+              "type", choice({"hinged", "rigid", "universal", "cylinder", "slide"}),
+              "rigid: the angle between them stays; hinged: a ball, or with `axis` a pin; of bodies also "
+              "universal: two `axes` stay square; cylinder: turns about `axis` and slides along it; slide: "
+              "slides along `axis` alone",
+              [](const Json& json, const std::string&, J& joint, Findings&) {
+                joint.rigid = text_of_choice(json) == "rigid";
+              })
+              .needed(),
+          field_by<J>("at", object({{"near", point(), "a point near the joint", required}}),
+                      "where, if not at an end of one of them",
+                      [](const Json& json, const std::string&, J& joint, Findings&) {
+                        if (const Json* near = value_under(json, "near")) take(*near, joint.near);
+                      }),
+          field(
+              &J::axis, "axis", vector(Dimension::number),
+              "as drawn, of a hinge between beams with torsion or of a rigid body, which turn about it alone; of "
+              "what slides its direction"),
+          field_by<J>("axes", axes,
+                      "of a universal joint: one of the first body, one of what it is joined to, as drawn",
+                      [](const Json&, const std::string&, J&, Findings&) {}),
+          slope_field(&J::slope),
+          field(&J::name, "name", name(), "heads the columns of its forces"),
+      },
+      {{{"beams", "between"}, required}}};
 }
 
 }  // namespace nurbeam

@@ -2,16 +2,13 @@
 #include "fem/structure/connector.h"
 #include "pipelines/case/fields.h"
 #include "pipelines/case/force_laws.h"
-#include "pipelines/case/parts/slope.h"
+#include "pipelines/case/parts/grip.h"
 
 namespace nurbeam {
 
 /// What a connector is fastened to: one of these.
-struct CaseConnectorEnd {
-  std::string path, beam, body;
-  Place at = {};                              ///< on the beam
-  std::optional<Eigen::Vector3d> point = {};  ///< [m]
-  SlopeRule slope = SlopeRule::automatic;     ///< of the beam
+struct CaseConnectorEnd : CaseGrip {
+  SlopeRule slope = SlopeRule::automatic;  ///< of the beam
 };
 
 struct CaseConnector {
@@ -30,12 +27,18 @@ struct CaseConnector {
 inline Fields<CaseConnectorEnd> connector_end_fields() {
   using namespace shapes;
   using E = CaseConnectorEnd;
+  // Members of its base, as its own.
+  std::string E::*const beam = &E::beam, E::*const body = &E::body;
+  std::optional<Eigen::Vector3d> E::*const fixed = &E::point;
   return {{
-              field(&E::beam, "beam", name(), "a beam, at the place `at`"),
-              field(&E::at, "at", place(), "where on that beam").beside("beam"),
+              field(beam, "beam", name(), "a beam, at the place `at`"),
               slope_field(&E::slope).beside("beam"),
-              field(&E::body, "body", name(), "a body"),
-              field(&E::point, "point", point(), "a point that stays where it is"),
+              field(body, "body", name(), "a body"),
+              field(fixed, "point", point(), "a point that stays where it is"),
+              field_by<E>("at", place_of_grip(), place_of_grip_help,
+                          [](const Json& json, const std::string& path, E& end, Findings& findings) {
+                            take_place(json, path, end, findings);
+                          }),
           },
           {{{"beam", "body", "point"}, required}}};
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/case/parts/slope.h"
+#include "pipelines/case/parts/grip.h"
 
 namespace nurbeam {
 
@@ -12,7 +12,8 @@ struct CaseLoad {
     torque_per_length
   } kind = Kind::force;
   std::string path;
-  std::string beam;
+  int number = 0;                                   ///< among the loads of the case
+  std::string beam, body;                           ///< one of them
   Place at;                                         ///< for force and moment
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< [N], [N m] or [N/m]
   double torque = 0;                                ///< per length [N m/m]
@@ -37,10 +38,20 @@ inline Fields<CaseLoad> load_fields() {
       object({{"speed", quantity(Dimension::speed, plausible(-1e9, 1e9)), "speed along the beam", required}});
   return {
       {
-          field(&L::beam, "beam", name(), "the loaded beam").needed(),
-          field(&L::at, "at", place(), "where the force or moment acts"),
-          value("force", Dimension::force, L::Kind::force, "point force, fixed in space").beside("at"),
-          value("moment", Dimension::moment, L::Kind::moment, "point moment").beside("at"),
+          field(&L::beam, "beam", name(), "the loaded beam"),
+          field(&L::body, "body", name(),
+                "the loaded body, which may turn with a moment where it is a rigid one"),
+          field_by<L>(
+              "at", place_of_grip(),
+              "where the force or moment acts; a force on a rigid body: the name of one of its points, or "
+              "a point of it as drawn, its centre of mass when omitted",
+              [](const Json& json, const std::string& path, L& load, Findings& findings) {
+                CaseGrip grip{.body = load.body, .beam = load.beam};
+                take_place(json, path, grip, findings);
+                load.at = grip.at;
+              }),
+          value("force", Dimension::force, L::Kind::force, "point force, fixed in space"),
+          value("moment", Dimension::moment, L::Kind::moment, "point moment"),
           value("force_per_length", Dimension::force_per_length, L::Kind::force_per_length,
                 "per metre of reference arc length"),
           value("force_per_projected_length", Dimension::force_per_length,
@@ -57,8 +68,7 @@ inline Fields<CaseLoad> load_fields() {
                 "torsion")
               .beside("force"),
           field(&L::follower, "follower", boolean(), "force or moment turns with the section")
-              .otherwise("false")
-              .beside("at"),
+              .otherwise("false"),
           field_by<L>("moves", moves, "a force that moves along the beam",
                       [](const Json& json, const std::string&, L& load, Findings&) {
                         if (const Json* speed = value_under(json, "speed")) take(*speed, load.moving_speed);
@@ -68,7 +78,8 @@ inline Fields<CaseLoad> load_fields() {
           field(&L::time, "time", table(Dimension::number, {.lower = -1e12, .upper = 1e12}),
                 "factor over time, linear between rows, constant outside"),
       },
-      {{{"force", "moment", "force_per_length", "force_per_projected_length", "torque_per_length"}, required},
+      {{{"beam", "body"}, required},
+       {{"force", "moment", "force_per_length", "force_per_projected_length", "torque_per_length"}, required},
        {{"at", "force_per_length", "force_per_projected_length", "torque_per_length"}, false}}};
 }
 

@@ -10,6 +10,7 @@ namespace nurbeam {
 struct CaseSlidingJoint {
   std::string path;
   std::string body, beam;
+  std::string point;  ///< of the body; empty: none
   Place at;
   std::optional<double> speed;    ///< initial [m/s]
   CasePlaceMotion motion;         ///< prescribed ds/dt [m/s] or s(t) [m]
@@ -17,11 +18,16 @@ struct CaseSlidingJoint {
   SlopeRule slope = SlopeRule::automatic;
   bool leave_at_end = true;  ///< false: stop
   bool follows_section = false;
+  Follows follows = Follows::nothing;
+  std::optional<Eigen::Vector3d> axis = {};    ///< of Follows::axis, as drawn
+  double rolling_mass = 0;                     ///< [kg]
   std::optional<Eigen::Vector2d> offset = {};  ///< in the section that it follows [m]
   StaticPlace rest = StaticPlace::automatic;
   std::optional<Friction> friction = {};
   std::optional<int> motion_law = {};  ///< the function of a program that prescribes it
   bool as_point = false;               ///< the mesh stays as it is where the body is
+
+  bool says_speed() const { return speed || motion.is_given() || release || motion_law; }
 };
 
 inline Fields<CaseSlidingJoint> sliding_joint_fields() {
@@ -30,6 +36,8 @@ inline Fields<CaseSlidingJoint> sliding_joint_fields() {
   Fields<J> fields{
       {
           field(&J::body, "body", name(), "the sliding body").needed(),
+          field(&J::point, "point", name(),
+                "the point of a rigid body that slides; its centre of mass when omitted"),
           field(&J::beam, "beam", name(), "the beam it slides on").needed(),
           field(&J::at, "at", place(), "where it starts").needed(),
           field(
@@ -50,6 +58,23 @@ inline Fields<CaseSlidingJoint> sliding_joint_fields() {
               "node: a node of the beam moves with the body, and elements beside it come and go; point: the "
               "body runs through elements that stay")
               .otherwise("node"),
+          choice_field(
+              &J::follows, "follows",
+              {{"nothing", Follows::nothing},
+               {"axis", Follows::axis},
+               {"tangent", Follows::tangent},
+               {"section", Follows::section}},
+              "what of a rigid body's attitude goes with the section of the beam or guide where it is: an "
+              "`axis` of the body that keeps its direction there, as of a bogie's pivot; tangent: it hangs "
+              "along the beam and swings sideways; section: all of it")
+              .otherwise("nothing"),
+          field(&J::axis, "axis", direction(), "of the body, as drawn, for \"follows\": \"axis\"")
+              .beside("follows"),
+          field(
+              &J::rolling_mass, "rolling_mass", quantity(Dimension::mass, plausible(0, 1e12)),
+              "of wheels that roll as it moves: the sum of their moments of inertia over the squares of their "
+              "radii")
+              .otherwise("0"),
           field(&J::follows_section, "follows_section", boolean(),
                 "the body rolls with the section of a beam with torsion where it is")
               .otherwise("false"),

@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/case/parts/slope.h"
+#include "pipelines/case/parts/grip.h"
 
 namespace nurbeam {
 
@@ -7,7 +7,7 @@ struct CaseSupport {
   enum class Type { clamped, pinned, fork, guided } type = Type::pinned;
   std::string name;  ///< heads the columns of its reaction; may be empty
   std::string path;
-  std::string beam;
+  std::string beam, body;  ///< one of them
   Place at;
   std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
   RowJoin motion_join = RowJoin::smooth_at_rest;
@@ -24,43 +24,55 @@ inline constexpr const char* motion_law_help = "number of the function that pres
 inline Fields<CaseSupport> support_fields() {
   using namespace shapes;
   using S = CaseSupport;
-  Fields<S> fields{{
-      field(&S::beam, "beam", name(), "the supported beam").needed(),
-      field(&S::at, "at", place(), "where").needed(),
-      choice_field(
-          &S::type, "type",
-          {{"clamped", S::Type::clamped},
-           {"pinned", S::Type::pinned},
-           {"fork", S::Type::fork},
-           {"guided", S::Type::guided}},
-          "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
-          "position and roll of a beam with torsion; guided: the position but along `direction`, where it is "
-          "free")
-          .needed(),
-      field(&S::direction, "direction", vector(Dimension::number), "of a guided support: where it is free"),
-      field(&S::force, "force", quantity(Dimension::force, plausible(-1e12, 1e12)),
-            "of a guided support: pulls along `direction`, as a weight over a pulley does")
-          .otherwise("0")
-          .beside("direction"),
-      field(&S::mass, "mass", quantity(Dimension::mass, plausible(0, 1e12)),
-            "of a guided support: the inertia of what pulls it")
-          .otherwise("0")
-          .beside("direction"),
-      field(&S::axis, "axis", vector(Dimension::number),
-            "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"),
-      slope_field(&S::slope),
-      field(&S::name, "name", name(), "heads the columns of its reaction"),
-      field(
-          &S::motion, "motion", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-          "moves the support from its drawn place: rows [time, dx, dy, dz]; smooth between them, with a continuous "
-          "speed and acceleration, at rest at the first and the last; in statics linear"),
-      choice_field(&S::motion_join, "interpolation",
-                   {{"smooth", RowJoin::smooth_at_rest}, {"linear", RowJoin::linear}},
-                   "between the rows of `motion`; linear: the speed jumps at each row")
-          .otherwise("smooth")
-          .beside("motion"),
-      field(&S::motion_law, "motion_law", integer(from(0)), motion_law_help),
-  }};
+  Fields<S> fields{
+      {
+          field(&S::beam, "beam", name(), "the supported beam"),
+          field(&S::body, "body", name(), "the supported body"),
+          field_by<S>(
+              "at", place_of_grip(),
+              "where; of a rigid body the name of one of its points, or a point of it as drawn, its centre of "
+              "mass when omitted",
+              [](const Json& json, const std::string& path, S& support, Findings& findings) {
+                CaseGrip grip{.body = support.body, .beam = support.beam};
+                take_place(json, path, grip, findings);
+                support.at = grip.at;
+              }),
+          choice_field(
+              &S::type, "type",
+              {{"clamped", S::Type::clamped},
+               {"pinned", S::Type::pinned},
+               {"fork", S::Type::fork},
+               {"guided", S::Type::guided}},
+              "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
+              "position and roll of a beam with torsion; guided: the position but along `direction`, where it is "
+              "free")
+              .needed(),
+          field(&S::direction, "direction", vector(Dimension::number),
+                "of a guided support: where it is free"),
+          field(&S::force, "force", quantity(Dimension::force, plausible(-1e12, 1e12)),
+                "of a guided support: pulls along `direction`, as a weight over a pulley does")
+              .otherwise("0")
+              .beside("direction"),
+          field(&S::mass, "mass", quantity(Dimension::mass, plausible(0, 1e12)),
+                "of a guided support: the inertia of what pulls it")
+              .otherwise("0")
+              .beside("direction"),
+          field(&S::axis, "axis", vector(Dimension::number),
+                "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"),
+          slope_field(&S::slope),
+          field(&S::name, "name", name(), "heads the columns of its reaction"),
+          field(
+              &S::motion, "motion", vector_table(Dimension::length, plausible(-1e9, 1e9)),
+              "moves the support from its drawn place: rows [time, dx, dy, dz]; smooth between them, with a continuous "
+              "speed and acceleration, at rest at the first and the last; in statics linear"),
+          choice_field(&S::motion_join, "interpolation",
+                       {{"smooth", RowJoin::smooth_at_rest}, {"linear", RowJoin::linear}},
+                       "between the rows of `motion`; linear: the speed jumps at each row")
+              .otherwise("smooth")
+              .beside("motion"),
+          field(&S::motion_law, "motion_law", integer(from(0)), motion_law_help),
+      },
+      {{{"beam", "body"}, required}}};
   fields.rows.back().in_files = false;
   return fields;
 }
