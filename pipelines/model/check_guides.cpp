@@ -30,7 +30,9 @@ void check_guides(const ResolvedCase& resolved, Findings& findings) {
   }
   const bool only_guides = std::all_of(resolved.beams.begin(), resolved.beams.end(),
                                        [](const CaseBeam& beam) { return beam.rigid; });
-  if (only_guides && resolved.analysis.has_modes())
+  const bool has_rigid_bodies =
+      std::ranges::any_of(resolved.bodies, [](const CaseBody& body) { return body.inertia.has_value(); });
+  if (only_guides && !has_rigid_bodies && resolved.analysis.has_modes())
     findings.error("analysis.type", "is for beams that deform, but all beams are rigid guides");
 }
 
