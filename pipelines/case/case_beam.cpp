@@ -307,7 +307,7 @@ Shape section_shape() {
        {"torsion_constant", quantity(Dimension::second_moment, plausible(1e-36, 1e16)),
         "St Venant's; when omitted that of the profile, or I_x + I_y of a round section"},
        {"extreme_fibre", quantity(Dimension::length, plausible(1e-9, 1e4)),
-        "greatest distance of the section from its axis of bending; without it no stress is given", false,
+        "largest distance of the section from its axis of bending; without it no stress is given", false,
         "area"},
        {"profile", profile,
         "section drawn in a CAD file; all curves of the file together, or of a part, layer and colour of it"},

@@ -92,9 +92,9 @@ inline Shape place() {
                "reference arc length from the beam's start"},
               {"fraction", quantity(Dimension::number, {.lower = 0, .upper = 1}),
                "fraction of the beam's reference length"},
-              {"near", point(), "the place of the drawn axis nearest to this point"},
+              {"near", point(), "the point of the reference curve nearest to this point"},
               {"within", quantity(Dimension::length, not_negative()),
-               "greatest distance of that point from the axis; 1 % of the beam's length when omitted", false,
+               "maximum distance of that point from the axis; 1 % of the beam's length when omitted", false,
                "near"}},
              {{{"length", "fraction", "near"}, required}}));
 }

@@ -66,7 +66,7 @@ const NumberOption number_options[] = {
      [](CatenaryData& d, double v) { d.mass_damping = v; }},
     {"--stiffness-damping", "TIME", "of both wires; otherwise 1e-4 s", Dimension::time,
      [](CatenaryData& d, double v) { d.stiffness_damping = v; }},
-    {"--element", "LENGTH", "greatest one of elements; otherwise 0.8 m", Dimension::length,
+    {"--element", "LENGTH", "maximum length of elements; otherwise 0.8 m", Dimension::length,
      [](CatenaryData& d, double v) { d.element = v; }},
     {"--pantograph", "SPEED", "adds the one of EN 50318:2002 at that speed; otherwise the case is static",
      Dimension::speed, [](CatenaryData& d, double v) { d.speed = v; }}};
@@ -136,7 +136,7 @@ Command catenary_entry() {
                 1,
                 1,
                 {{"--spans", "LENGTHS", "as 60,65,60 or 10x60", true},
-                 {"--droppers", "PLACES", "in the first span, as 5,17,30; in others in proportion", true},
+                 {"--droppers", "POSITIONS", "in the first span, as 5,17,30; in others in proportion", true},
                  {"--dropper-lengths", "LENGTHS",
                   "of each; otherwise those that hold the contact wire where it is drawn"},
                  {"--name", "TEXT", "of the case; otherwise that of the file"},

@@ -160,8 +160,8 @@ class Body(_Named):
     """A body of a model, as `model.add_body` returns it; wherever a body is asked for its name does too."""
 
     def at(self, place: str | npt.ArrayLike) -> dict[str, Any]:
-        """A place of a rigid body, for joints, supports, connectors and loads: one of its `points` by its name, or a point
-        of it as drawn (3,) [m]."""
+        """A point of a rigid body, for joints, supports, connectors and loads: the name of one of its `points`, or its
+        reference position (3,) [m]."""
         return {"body": self.name, "at": place}
 
 
@@ -308,10 +308,10 @@ class Model:
         return Beam(named)
 
     def add_body(self, name: str, mass: Quantity, roll_inertia: Quantity | None = None, **keys: Any) -> Body:
-        """A point mass, which a sliding joint or a connector holds; with `inertia` = [Ixx, Iyy, Izz] [kg m^2] about its
-        centre of mass, which is at `position` as drawn, a rigid body. It has places that are named, `points` = {"rim":
-        (3,) [m], ...}, own `axes`, and starts with `velocity` [m/s], `angular_velocity` [rad/s], and `turned` from the
-        drawing."""
+        """A point mass on a sliding joint or a connector. With `inertia` = [Ixx, Iyy, Izz] [kg m^2] about its centre of
+        mass it is a rigid body, with the reference `position` of that centre, named `points` = {"rim": (3,) [m], ...} and
+        `axes` of its own. It starts with `velocity` [m/s] and `angular_velocity` [rad/s], and `turned` from the reference
+        configuration."""
         self.add("bodies", name=name, mass=mass, roll_inertia=roll_inertia, **keys)
         return Body(name)
 

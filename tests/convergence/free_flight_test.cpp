@@ -91,7 +91,7 @@ TEST(FreeFlight, WithoutBodiesLinearMomentumIsKeptToRoundOff) {
   }
 }
 
-// What error control costs: docs/when-a-run.md has these numbers.
+// What error control costs: docs/troubleshooting.md has these numbers.
 TEST(FreeFlight, WithABodyMomentaDriftWithTheTolerance) {
   for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
     SimulationOptions options = to_half_a_second();

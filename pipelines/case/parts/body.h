@@ -85,12 +85,14 @@ inline Fields<CaseBody> body_fields() {
       field(&B::drag_area, "drag_area", quantity(Dimension::area, plausible(0, 1e6)),
             "drag coefficient times area, of the drag of the `air`")
           .otherwise("0"),
-      field(&B::position, "position", point(),
-            "where a body without a sliding joint starts; of a rigid body its centre of mass as drawn"),
+      field(
+          &B::position, "position", point(),
+          "where a body without a sliding joint starts; of a rigid body its centre of mass in the reference "
+          "configuration"),
       field_by<B>(
           "inertia", inertia,
-          "makes it a rigid body, which turns: [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about its centre "
-          "of mass, along `axes`; Ixy is the integral of x y; a point mass when omitted",
+          "makes it a rigid body, which rotates: [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about "
+          "its centre of mass, along `axes`; Ixy is the integral of x y; a point mass when omitted",
           [](const Json& json, const std::string& path, B& body, Findings& findings) {
             std::vector<double> components;
             take(json, components);
@@ -102,8 +104,8 @@ inline Fields<CaseBody> body_fields() {
           }),
       field_by<B>("axes",
                   object({{"x", direction(), "its x axis", required},
-                          {"z", direction(), "its z axis, square to x", required}}),
-                  "own axes of a rigid body, as drawn; those of the drawing when omitted",
+                          {"z", direction(), "its z axis, perpendicular to x", required}}),
+                  "body axes of a rigid body, in the reference configuration; the axes of space when omitted",
                   [](const Json& json, const std::string& path, B& body, Findings& findings) {
                     Eigen::Vector3d x = Eigen::Vector3d::Zero(), z = x;
                     if (const Json* value = value_under(json, "x")) take(*value, x);
@@ -118,22 +120,23 @@ inline Fields<CaseBody> body_fields() {
                     body.axes.col(1) = body.axes.col(2).cross(body.axes.col(0));
                   })
           .beside("inertia"),
-      field_by<B>("points", map(point()), "places of a rigid body by their names, as drawn",
+      field_by<B>("points", map(point()),
+                  "points of a rigid body by their names, in the reference configuration",
                   [](const Json& json, const std::string&, B& body, Findings&) { take_points(json, body); })
           .beside("inertia"),
       object_field(&B::turned, "turned", turn_fields(),
-                   "turns a rigid body with its points from where it is drawn to where it starts")
+                   "rotates a rigid body with its points from the reference configuration to its start")
           .beside("inertia"),
       field(&B::angular_velocity, "angular_velocity", vector(Dimension::angular_speed, plausible(-1e6, 1e6)),
-            "of a rigid body at the start, along the axes of the drawing; none when omitted")
+            "of a rigid body at the start, along the axes of space; none when omitted")
           .beside("inertia"),
       object_field(&B::rotor, "rotor", rotor_fields(),
-                   "a part of a rigid body that spins in it at a speed which a motor keeps")
+                   "a part of a rigid body that rotates in it at a constant speed")
           .beside("inertia"),
       field_by<B>(
           "fastened",
-          object({{"beam", name(), "the beam", required}, {"at", place(), "which place of it", required}}),
-          "a weight that goes with a place of a beam, as at a rope's end",
+          object({{"beam", name(), "the beam", required}, {"at", place(), "position on it", required}}),
+          "a weight fastened to a position of a beam, as at a rope's end",
           [](const Json& json, const std::string&, B& body, Findings&) {
             if (const Json* beam = value_under(json, "beam")) take(*beam, body.fastened_to);
             if (const Json* at = value_under(json, "at")) take(*at, body.fastened_at);

@@ -44,7 +44,7 @@ inline Fields<CaseLoad> load_fields() {
           field_by<L>(
               "at", place_of_grip(),
               "where the force or moment acts; a force on a rigid body: the name of one of its points, or "
-              "a point of it as drawn, its centre of mass when omitted",
+              "its reference position; the centre of mass when omitted",
               [](const Json& json, const std::string& path, L& load, Findings& findings) {
                 CaseGrip grip{.body = load.body, .beam = load.beam};
                 take_place(json, path, grip, findings);
@@ -56,7 +56,8 @@ inline Fields<CaseLoad> load_fields() {
                 "per metre of reference arc length"),
           value("force_per_projected_length", Dimension::force_per_length,
                 L::Kind::force_per_projected_length,
-                "per metre of the drawn axis as seen along the force: snow and ice by the length in plan"),
+                "per metre of the reference curve, projected along the force: snow and ice by the length in "
+                "plan"),
           field_by<L>("torque_per_length", quantity(Dimension::torque_per_length, plausible(-1e12, 1e12)),
                       "about the tangent of a beam with torsion, per metre of reference arc length",
                       [](const Json& json, const std::string&, L& load, Findings&) {

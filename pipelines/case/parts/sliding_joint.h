@@ -42,16 +42,16 @@ inline Fields<CaseSlidingJoint> sliding_joint_fields() {
           field(&J::at, "at", place(), "where it starts").needed(),
           field(
               &J::speed, "speed", quantity(Dimension::speed, plausible(-1e9, 1e9)),
-              "initial speed in reference arc length; when omitted that of the body by its joint on another beam, "
-              "else 0"),
-          place_motion_field(&J::motion, "reference arc length", "prescribes the body's place, from `at` on"),
+              "initial speed in reference arc length; when omitted that of the body by its joint on another "
+              "beam, else 0"),
+          place_motion_field(&J::motion, "reference arc length",
+                             "prescribed motion of the body, from `at` on"),
           choice_field(
               &J::rest, "equilibrium", {{"held", StaticPlace::held}, {"free", StaticPlace::free}},
-              "where statics find the body: held at its `at`, or free, where it rests; when omitted free in "
-              "a static analysis, held at the start of a motion"),
-          field(
-              &J::release, "release", quantity(Dimension::time, positive()),
-              "time of a motion until which the body is held where it is; free from the start when omitted"),
+              "the body in statics: locked at its `at`, or free; when omitted free in a static analysis, "
+              "locked at the start of a motion"),
+          field(&J::release, "release", quantity(Dimension::time, positive()),
+                "time of a motion until which the body is locked; free from the start when omitted"),
           slope_field(&J::slope),
           choice_field(
               &J::as_point, "carried_as", {{"node", false}, {"point", true}},
@@ -64,16 +64,16 @@ inline Fields<CaseSlidingJoint> sliding_joint_fields() {
                {"axis", Follows::axis},
                {"tangent", Follows::tangent},
                {"section", Follows::section}},
-              "what of a rigid body's attitude goes with the section of the beam or guide where it is: an "
+              "what of a rigid body's attitude follows the section of the beam or rigid curve under it: an "
               "`axis` of the body that keeps its direction there, as of a bogie's pivot; tangent: it hangs "
               "along the beam and swings sideways; section: all of it")
               .otherwise("nothing"),
-          field(&J::axis, "axis", direction(), "of the body, as drawn, for \"follows\": \"axis\"")
+          field(&J::axis, "axis", direction(),
+                "of the body, in the reference configuration, for \"follows\": \"axis\"")
               .beside("follows"),
-          field(
-              &J::rolling_mass, "rolling_mass", quantity(Dimension::mass, plausible(0, 1e12)),
-              "of wheels that roll as it moves: the sum of their moments of inertia over the squares of their "
-              "radii")
+          field(&J::rolling_mass, "rolling_mass", quantity(Dimension::mass, plausible(0, 1e12)),
+                "of wheels that roll as it moves: the sum of their moments of inertia over the squares of "
+                "their radii")
               .otherwise("0"),
           field(&J::follows_section, "follows_section", boolean(),
                 "the body rolls with the section of a beam with torsion where it is")

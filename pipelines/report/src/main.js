@@ -127,6 +127,9 @@ function start_view() {
   $('field').append(...fields.map(({ name }, i) => element('option', { value: i }, name)));
   $('field').value = first_field(fields);
   choose_colours = () => {
+    if (fields.length === 0) {
+      return;  // there are no beams to colour
+    }
     const { name, unit } = fields[$('field').value];
     const of_shape = has_modes && name === 'displacement';  // which is of any amplitude
     const { low, high, stops } = view.set_field(Number($('field').value), has_modes || $('instant').checked);
