@@ -8,7 +8,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/accuracy/event_order.h"
-#include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/accuracy/number_names.h"
 
 namespace nurbeam {
 
@@ -29,8 +29,6 @@ bool is_usual(const HistoryQuantity& of) {
   if (of.of == "connector") return of.quantity == "force";
   return of.of != "energy" && (is_in(usual_of_points) || (of.of == "beam" && is_in(usual_of_beams)));
 }
-
-std::string column_name(const HistoryColumn& column) { return column.name + "." + column.quantity; }
 
 bool is_force(const std::string& unit) { return unit == "N" || unit == "N m" || unit == "Pa"; }
 bool bends(const std::string& unit) { return unit == "N m" || unit == "Pa"; }
@@ -53,50 +51,7 @@ std::optional<std::size_t> frame_of_peak(const LevelNumbers& run, std::size_t co
   return found;
 }
 
-// Names of extremes that are not those of columns.
-std::vector<std::string> names_of_extremes(const std::vector<HistoryQuantity>& quantities) {
-  std::vector<std::string> names;
-  for (const HistoryQuantity& of : quantities)
-    for (const auto& [quantity, ending] :
-         {std::pair{"joint_force.", ".joint_force"}, {"f", ".force"}, {"m", ".couple"}})
-      if (of.quantity == quantity) names.push_back(of.name + ending);
-  return names;
-}
-
-bool is_event(const std::string& name, const std::vector<std::string>& bodies) {
-  const std::string plain = name.ends_with(")") ? name.substr(0, name.rfind(" (")) : name;
-  for (int kind = 0; kind <= static_cast<int>(EventKind::leaves_stop); ++kind)
-    for (const std::string& body : bodies)
-      if (is_booked(static_cast<EventKind>(kind)) &&
-          plain == body + " " + name_of(static_cast<EventKind>(kind)))
-        return true;
-  return false;
-}
-
 }  // namespace
-
-std::vector<std::string> names_of_numbers(const AccuracyQuestion& question, bool modes) {
-  std::vector<std::string> names;
-  if (modes) return {"mode 1", "mode 2"};
-  for (const HistoryColumn& column : question.columns) names.push_back(column_name(column));
-  for (std::string& name : names_of_extremes(question.model.quantities)) names.push_back(std::move(name));
-  return names;
-}
-
-std::vector<std::string> unknown_numbers(const AccuracyQuestion& question, bool modes) {
-  const std::vector<std::string> names = names_of_numbers(question, modes);
-  std::vector<std::string> unknown;
-  for (const std::string& asked : question.of) {
-    const bool is_peak =
-        asked.size() > 5 && asked.ends_with(")") && (asked.starts_with("max(") || asked.starts_with("min("));
-    const std::string name = is_peak ? asked.substr(4, asked.size() - 5) : asked;
-    const bool is_known =
-        modes ? asked.starts_with("mode ")
-              : std::ranges::find(names, name) != names.end() || is_event(asked, question.bodies);
-    if (!is_known) unknown.push_back(asked);
-  }
-  return unknown;
-}
 
 AccuracyTable::AccuracyTable(const AccuracyQuestion& question, const RunsOfErrors& runs,
                              const LevelNumbers& own)
@@ -143,7 +98,7 @@ void AccuracyTable::add_ends() {
     const double value = shown_.rows.back()[i], time = shown_.times.back();
     if (std::isnan(value)) continue;
     const double error = refined_ ? bars_.fine(q, time) : bars_.own(q, time), scale = bars_.scale(q);
-    const std::string name = column_name(question_.columns[i]);
+    const std::string name = name_of_column(question_.columns[i]);
     add({.quantity = name,
          .unit = question_.columns[i].unit,
          .value = value,
@@ -194,7 +149,7 @@ void AccuracyTable::add_extremes() {
 void AccuracyTable::add_asked_peaks() {
   for (std::size_t i = 0; i < question_.columns.size(); ++i)
     for (const bool greatest : {true, false}) {
-      const std::string column = column_name(question_.columns[i]),
+      const std::string column = name_of_column(question_.columns[i]),
                         name = (greatest ? "max(" : "min(") + column + ")";
       const bool is_extreme = greatest && std::ranges::any_of(own_.extremes, [&](const RunExtreme& each) {
                                 return each.quantity == column;

@@ -101,7 +101,7 @@ Shape analysis_shape() {
         "omitted"}});
   const Shape accuracy = object(
       {{"target", quantity(Dimension::part, accuracy_target_range()),
-        "refines until the errors of what is asked are below this part of their scales; once, without refinement, when omitted"},
+        "refines elements and steps until the errors of what is asked are below this part of their scales"},
        {"of", array(any_text(), 1),
         "columns, extremes (\"max(trolley.speed)\"), events whose errors count; when omitted places, displacements, "
         "speeds, reactions, connectors' forces, frequencies and the greatest axial force and moment of each beam"},
@@ -132,8 +132,8 @@ Shape analysis_shape() {
        {"length_control", length_control,
         "when elements beside a sliding body change, in standard element lengths"},
        {"accuracy", either(boolean(), accuracy),
-        "errors of mesh and step, from runs with other elements and steps; false when omitted, true with "
-        "--accuracy"}},
+        "errors of mesh and step, from runs with other elements and steps, as --accuracy asks for them; false when "
+        "omitted"}},
       {{{"step", "tolerance"}, false}});
 }
 

@@ -35,10 +35,10 @@
 #include "pipelines/run/history_rows.h"
 #include "pipelines/run/kept_memory.h"
 #include "pipelines/run/mode_run.h"
-#include "pipelines/run/model_digest.h"
 #include "pipelines/run/motion_mesh.h"
 #include "pipelines/run/progress.h"
 #include "pipelines/run/round_off.h"
+#include "pipelines/run/run_checkpoint.h"
 #include "pipelines/run/run_evidence.h"
 #include "pipelines/run/run_messages.h"
 #include "pipelines/run/run_outputs.h"
@@ -64,54 +64,6 @@ ExitCode exit_code_of(SimulationStatus status) {
       return exit_interrupted;
   }
   return exit_not_converged;
-}
-
-// What a restart point belongs to: the program, the case with its overrides, the CAD files.
-std::string digest_of_inputs(const CaseFile& c, const BuiltModel& built) {
-  std::string text = std::string(NURBEAM_VERSION) + "\n" + text_without_accuracy(c) + "\n";
-  for (const auto& file : built.inputs) text += sha256_of_file(file) + "\n";
-  return sha256_of_text(text);
-}
-
-std::filesystem::path restart_file(const std::filesystem::path& directory) {
-  return directory / "restart.nc";
-}
-
-// What the status of a run begins with whose errors are not as small as was asked.
-constexpr const char* accuracy_status = "accuracy";
-
-// A restart point that cannot be used.
-struct UnusableCheckpoint : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-// The restart point of a directory, if it belongs to these inputs. Throws UnusableCheckpoint.
-Checkpoint find_checkpoint(const std::filesystem::path& directory, const std::string& inputs) {
-  const std::filesystem::path file = restart_file(directory);
-  Checkpoint point;
-  try {
-    point = read_checkpoint(file);
-  } catch (const std::runtime_error& problem) {
-    throw UnusableCheckpoint(std::string(problem.what()) + "; run without --resume");
-  }
-  if (point.inputs != inputs)
-    throw UnusableCheckpoint(file.string() +
-                             ": belongs to another case: the case file, its overrides (--set), a CAD file or "
-                             "nurbeam have changed since; run without --resume");
-  return point;
-}
-
-// The end of a finished run of these inputs, from which its errors can be found without running it again.
-std::optional<Checkpoint> finished_before(const CaseFile& c, const std::filesystem::path& directory,
-                                          const std::string& inputs) {
-  if (!c.analysis.accuracy.is_on || !std::filesystem::exists(restart_file(directory))) return {};
-  const std::string status = status_of_run(directory);
-  if (status != "done" && !status.starts_with(accuracy_status)) return {};
-  try {
-    return find_checkpoint(directory, inputs);
-  } catch (const std::runtime_error&) {
-    return {};  // of another case: it is run anew
-  }
 }
 
 // The run itself, once everything it needs is there.
