@@ -60,6 +60,19 @@ std::vector<double> read_load_factors(const Json& json, Findings& findings) {
   return factors;
 }
 
+CaseAccuracy read_accuracy(const Json& json) {
+  CaseAccuracy accuracy;
+  if (!has(json, "accuracy")) return accuracy;
+  const Json& value = json["accuracy"];
+  accuracy.is_on = !value.is_boolean() || value.get<bool>();
+  if (value.is_boolean()) return accuracy;
+  accuracy.target = optional_number(value, "target");
+  accuracy.limit = number(value, "limit", accuracy.limit);
+  for (const Json& item : part(value, "of"))
+    if (!item.is_null()) accuracy.of.push_back(item.get<std::string>());
+  return accuracy;
+}
+
 }  // namespace
 
 Shape analysis_shape() {
@@ -86,6 +99,14 @@ Shape analysis_shape() {
        {"bodies", choice({"held", "free"}),
         "sliding bodies are held at their `at`, or slide without friction, about where they rest; held when "
         "omitted"}});
+  const Shape accuracy = object(
+      {{"target", quantity(Dimension::part, accuracy_target_range()),
+        "refines until the errors of what is asked are below this part of their scales; once, without refinement, when omitted"},
+       {"of", array(any_text(), 1),
+        "columns, extremes (\"max(trolley.speed)\"), events whose errors count; when omitted places, displacements, "
+        "speeds, reactions, connectors' forces, frequencies and the greatest axial force and moment of each beam"},
+       {"limit", quantity(Dimension::number, {.lower = 1, .upper = 1e6}),
+        "most work, over that of the plain run; 64 when omitted"}});
   return object(
       {{"type", choice({"dynamic", "static", "modes", "buckling"}),
         "motion, equilibrium, natural frequencies, or the factors of the loads under which it "
@@ -109,7 +130,10 @@ Shape analysis_shape() {
         "full loads, at the time 0, or 1 where a table or a moving force is read"},
        {"integrator", integrator, "time integrator"},
        {"length_control", length_control,
-        "when elements beside a sliding body change, in standard element lengths"}},
+        "when elements beside a sliding body change, in standard element lengths"},
+       {"accuracy", either(boolean(), accuracy),
+        "errors of mesh and step, from runs with other elements and steps; false when omitted, true with "
+        "--accuracy"}},
       {{{"step", "tolerance"}, false}});
 }
 
@@ -124,6 +148,7 @@ CaseAnalysis read_analysis(const Json& json, bool nothing_deforms, Findings& fin
   const Json& control = part(json, "length_control");
   analysis.length_control = {number(control, "min", analysis.length_control.min),
                              number(control, "max", analysis.length_control.max)};
+  analysis.accuracy = read_accuracy(json);
   const bool dynamic = analysis.type == CaseAnalysis::Type::dynamic;
   if (dynamic) {
     analysis.end_time = number(json, "end_time", 0);

@@ -101,6 +101,8 @@ bool fits_json_type(const Shape& shape, const Json& value) {
     case Kind::either:
       return std::any_of(shape.items.begin(), shape.items.end(),
                          [&](const Shape& item) { return fits_json_type(item, value); });
+    case Kind::boolean:
+      return value.is_boolean();
     default:
       return value.is_string();
   }

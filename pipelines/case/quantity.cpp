@@ -137,6 +137,8 @@ DimensionInfo info(Dimension dimension) {
       return {"force over speed squared", "N s^2/m^2", {-1, 1, 0}, "N s^2/m^2, kN s^2/m^2, kg/m"};
     case Dimension::angle:
       return {"angle", "degrees", {0, 0, 0}, "deg, rad, mrad, rev", pi, 180};
+    case Dimension::part:
+      return {"part", "parts of 1", {0, 0, 0}, "%"};
   }
   return {};
 }
@@ -248,6 +250,14 @@ UnitProduct parse_units(const std::string& text, std::string_view examples) {
   return product;
 }
 
+/// Parts of a hundred, the one unit of parts.
+UnitProduct parse_percent(const std::string& text) {
+  UnitProduct product{.multiply = 1, .divide = 100};
+  const std::string unit = text.substr(0, text.find_last_not_of(' ') + 1);
+  if (unit != "%") product.error = "unknown unit " + in_quotes(unit);
+  return product;
+}
+
 /// Whether a unit is one of temperatures that do not begin at their absolute zero.
 bool is_scale_of_temperature(const std::string& unit) {
   for (const char* scale : {"C", "degC", "F", "degF", "Celsius", "Fahrenheit"})
@@ -298,7 +308,9 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   }
   const bool has_unit = rest.find_first_not_of(' ') != std::string_view::npos;
   if (is_plain && has_unit) return failed("has a unit; expected a plain number");
-  const UnitProduct product = parse_units(plain(rest), unit_examples(dimension));
+  const UnitProduct product = dimension == Dimension::part && has_unit
+                                  ? parse_percent(plain(rest))
+                                  : parse_units(plain(rest), unit_examples(dimension));
   if (dimension == Dimension::temperature && is_scale_of_temperature(plain(rest)))
     return failed(
         "is a temperature; expected the difference from the one at which the beam is free of stress, in K: "

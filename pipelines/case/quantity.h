@@ -29,7 +29,8 @@ enum class Dimension {
   stiffness,
   damping,
   drag,
-  angle
+  angle,
+  part
 };
 
 /// "length", "force per length", ...
@@ -46,8 +47,8 @@ struct ParsedQuantity {
   std::string error;  ///< empty when there is a value
 };
 
-/// Reads "5 mm", "7200 kg/m^3", "2 N m", "20 km/h": a number and a product of units with integer powers
-/// (m2, m^2 and m² are the same), whose dimension must be the expected one.
+/// Reads "5 mm", "7200 kg/m^3", "2 N m", "20 km/h", "1 %": a number and a product of units with integer
+/// powers (m2, m^2 and m² are the same), whose dimension must be the expected one.
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension);
 
 /// What 1 of this unit ("mm", "N m", "deg") is in SI units; nothing for one that is not known.

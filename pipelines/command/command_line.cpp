@@ -43,6 +43,24 @@ std::string files_here(const std::string& argument) {
   return "; in this folder there are: " + quoted_list(names);
 }
 
+// Whether a word is a value of an option that may stand without one.
+bool is_value(const std::string& word) {
+  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+  return !word.empty() && is_digit(word.front()) && (is_digit(word.back()) || word.back() == '%');
+}
+
+// The words of a command, in which every option that may stand without a value has one.
+std::vector<std::string> with_values(const Command& command, std::vector<std::string> words) {
+  const auto is_bare = [&](const std::string& word) {
+    return std::ranges::any_of(command.options, [&](const CommandOption& option) {
+      return option.may_be_bare && option.name == word;
+    });
+  };
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (is_bare(words[i]) && (i + 1 == words.size() || !is_value(words[i + 1]))) words[i] += "=true";
+  return words;
+}
+
 // The parser of one command, and what it has read.
 class Parser {
  public:
@@ -60,7 +78,8 @@ class Parser {
     }
   }
 
-  Arguments parse(const std::vector<std::string>& words) {
+  Arguments parse(const std::vector<std::string>& given) {
+    const std::vector<std::string> words = with_values(command_, given);
     try {
       app_.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the back
     } catch (const CLI::ArgumentMismatch& error) {

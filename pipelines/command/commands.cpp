@@ -60,18 +60,35 @@ bool progress_is_json(const Arguments& arguments) {
   return form == "json";
 }
 
+// What --accuracy asks for besides the case.
+void ask_for_accuracy(const Arguments& arguments, CaseAccuracy& accuracy) {
+  if (!arguments.has("--accuracy")) return;
+  accuracy.is_on = true;
+  const std::string target = arguments.value("--accuracy", "true");
+  if (target == "true") return;
+  accuracy.target = quantity_argument("--accuracy", target, Dimension::part);
+  const Range range = accuracy_target_range();
+  if (!range.contains(*accuracy.target))
+    throw UsageError("--accuracy: is " + text_of(100 * *accuracy.target) + " %; must be between " +
+                     text_of(100 * range.lower) + " % and " + text_of(100 * range.upper) + " % (" +
+                     range.reason + ")");
+}
+
 int run_command(const Arguments& arguments, Streams streams) {
   if (arguments.value("--out", "results").empty())
     throw UsageError("--out: is empty; give the directory for the results");
   const int threads = whole_number(arguments, "--threads", 0, 1, 1024);
   const bool json = progress_is_json(arguments);
   const BrokenPipeGuard guard;  // a run outlives the reader of its messages
+  CaseAccuracy asked;
+  ask_for_accuracy(arguments, asked);
   RunMessages messages(streams.err, json ? RunMessages::Form::json : RunMessages::Form::text);
-  const auto case_file = read_case(arguments, messages);
+  auto case_file = read_case(arguments, messages);
   if (!case_file) {
     messages.end(exit_bad_input, arguments.value("--out", ""));
     return exit_bad_input;
   }
+  ask_for_accuracy(arguments, case_file->analysis.accuracy);
   const std::string default_out = case_file->path.stem().string() + "_results";
   return run_case(*case_file, {.out = arguments.value("--out", default_out),
                                .quiet = arguments.has("--quiet"),
@@ -216,6 +233,10 @@ Command run_entry() {
        {"--quiet", "", "no progress"},
        {"--progress", "text|json", "json: progress and findings as one JSON object a line; otherwise text"},
        {"--threads", "N", "the most threads that share a long beam; otherwise one a core"},
+       {"--accuracy", "[TARGET]",
+        "errors of mesh and step, from runs with other elements and steps; with a target, as 1%, finer ones "
+        "until the errors are below it",
+        false, false, true},
        set_option()},
       run_command,
       exit_not_written};

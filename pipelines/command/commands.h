@@ -45,6 +45,8 @@ struct CommandOption {
   std::string help;
   bool required = false;
   bool repeated = false;
+  /// Whether it may stand without a value: a word behind it is one if it begins as a number does.
+  bool may_be_bare = false;
 };
 
 /// One command of the program: parser, help, manual page and completion are made of this.

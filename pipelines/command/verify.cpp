@@ -15,8 +15,10 @@ const CompanionProgram bench_program{"nurbeam-bench", "times nurbeam", "NURBEAM_
 /// The words after which a command line has been read.
 std::vector<std::string> words_of(const Command& command, const Arguments& arguments) {
   std::vector<std::string> words{command.name};
-  for (const auto& [option, values] : arguments.options)
+  for (const auto& [option, values] : arguments.options) {
+    if (values.empty()) words.push_back(option);
     for (const std::string& value : values) words.insert(words.end(), {option, value});
+  }
   words.insert(words.end(), arguments.positional.begin(), arguments.positional.end());
   return words;
 }
@@ -35,7 +37,10 @@ Command verify_entry(int (*run)(const Arguments&, Streams)) {
             "the problems that have most in common with that case, for each of its features"},
            {"--write", "FILE",
             "writes which features each problem covers, with its errors: the table that "
-            "nurbeam carries (pipelines/results/verified.tsv)"}},
+            "nurbeam carries (pipelines/results/verified.tsv)"},
+           {"--accuracy", "",
+            "computes them with half and a quarter of the elements and steps too, and tells how many true "
+            "errors are below what a run estimates"}},
           run,
           exit_not_written};
 }

@@ -27,14 +27,19 @@ std::vector<Prefix> prefixes_of(std::string_view unit) {
 
 }  // namespace
 
-std::string readable(double value, const std::string& unit) {
-  constexpr int digits = 4;
+ReadableUnit readable_unit(double value, const std::string& unit) {
   const std::vector<Prefix> prefixes = prefixes_of(unit);
-  if (value == 0 || prefixes.empty()) return text_of(value, digits) + " " + unit;
+  if (value == 0 || prefixes.empty()) return {unit, 1};
   const Prefix* best = &prefixes.front();
   for (const Prefix& each : prefixes)
     if (std::abs(value) >= each.factor * (1 - 0.5e-4)) best = &each;
-  return text_of(value / best->factor, digits) + " " + best->name;
+  return {best->name, best->factor};
+}
+
+std::string readable(double value, const std::string& unit) {
+  constexpr int digits = 4;
+  const ReadableUnit shown = readable_unit(value, unit);
+  return text_of(value / shown.factor, digits) + " " + shown.name;
 }
 
 }  // namespace nurbeam

@@ -117,18 +117,27 @@ class FreedomCheck {
   // What holds a rigid body in more ways than it can move: a second hinge of a door, a fourth wheel.
   void refuse_joints(const BeamSystem& system, const DependentConstraints& set, const std::string& where) {
     const std::vector<std::string> names = row_names(system);
+    const auto is_in = [&](const std::string& name) {
+      return std::ranges::any_of(set.rows,
+                                 [&](int row) { return names[row].substr(0, names[row].find('[')) == name; });
+    };
     std::vector<std::string> parts;
-    for (const int row : set.rows) {
-      const std::string name = names[row].substr(0, names[row].find('['));
-      if (!contains(parts, name)) parts.push_back(name);
-    }
     std::string path = "bodies";
     std::size_t number = 0;
     for (const Constraint& constraint : model_.constraints)
       if (const auto* joint = std::get_if<BodyJoint>(&constraint)) {
         const std::string& of = resolved_.body_joints[number++].path;
-        if (contains(parts, joint->reaction_name(model_))) path = of;
+        if (!is_in(joint->reaction_name(model_))) continue;
+        path = of;
+        parts.push_back(joint->reaction_name(model_));
       }
+    for (std::size_t j = 0; j < resolved_.sliding_joints.size(); ++j) {
+      const int body = model_.riders[j].body;
+      if (model_.turning_body(model_.riders[j]) < 0 || !contains(set.coordinates, system.mesh().bodies[body]))
+        continue;
+      path = resolved_.sliding_joints[j].path;
+      parts.push_back(model_.bodies[body].name);
+    }
     if (parts.empty()) return;
     findings_.error(
         path, where + quoted_list(parts) +

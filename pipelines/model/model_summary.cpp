@@ -1,5 +1,6 @@
 #include "pipelines/model/model_summary.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -117,6 +118,25 @@ Json to_json(const Support& support, const BuiltModel& built) {
           {"s [m]", support.s},
           {"position [m]", to_json(built.frame.to_world(beam.curve.position(support.s)))},
           {"outward", to_json(built.frame.direction_to_world(outward(built.model, support)))}};
+}
+
+// A rigid body with the box of its mass and inertia, of which the axes are those of the drawing.
+Json to_json(const Body& body, const ModelFrame& frame) {
+  Json json = {{"name", body.name}, {"mass [kg]", body.mass}, {"roll inertia [kg m^2]", body.roll_inertia}};
+  if (!body.rigid) return json;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body.rigid->inertia);
+  const Eigen::Vector3d J = principal.eigenvalues();
+  Eigen::Matrix3d axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(2) *= -1;
+  Json sides = Json::array(), directions = Json::array();
+  for (int k = 0; k < 3; ++k) {
+    sides.push_back(std::sqrt(std::max(6 * (J.sum() - 2 * J[k]) / body.mass, 0.0)));
+    directions.push_back(to_json(Eigen::Vector3d(frame.direction_to_world(axes.col(k)))));
+  }
+  json["principal inertia [kg m^2]"] = to_json(J);
+  json["box [m]"] = std::move(sides);
+  json["box axes"] = std::move(directions);
+  return json;
 }
 
 Json to_json(const Rider& joint, const BeamModel& model) {
@@ -252,9 +272,7 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
       {"loads", Json::array()}};
   for (std::size_t b = 0; b < model.beams.size(); ++b)
     json["beams"].push_back(to_json(model.beams[b], built.sources[b]));
-  for (const Body& body : model.bodies)
-    json["bodies"].push_back(
-        {{"name", body.name}, {"mass [kg]", body.mass}, {"roll inertia [kg m^2]", body.roll_inertia}});
+  for (const Body& body : model.bodies) json["bodies"].push_back(to_json(body, built.frame));
   for (const Constraint& constraint : model.constraints)
     std::visit(
         [&](const auto& c) {

@@ -9,6 +9,7 @@
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/papers/papers.h"
 #include "pipelines/run/run_evidence.h"
+#include "pipelines/verification/accuracy_campaign.h"
 #include "pipelines/verification/verify.h"
 
 namespace nurbeam {
@@ -49,6 +50,8 @@ int verify_command(const Arguments& arguments, Streams streams) {
   }
   std::vector<VerifyProblem> problems = verification_problems();
   const std::vector<std::string> names = names_of(problems);
+  if (arguments.has("--write") && arguments.has("--accuracy"))
+    throw UsageError("--write and --accuracy exclude each other");
   if (arguments.has("--write") && (!part.empty() || arguments.has("--for")))
     throw UsageError("--write tells of all problems: leave out the name and --for");
   if (arguments.has("--for")) {
@@ -60,6 +63,7 @@ int verify_command(const Arguments& arguments, Streams streams) {
                 [&](const VerifyProblem& problem) { return problem.name.find(part) == std::string::npos; });
   if (problems.empty())
     throw UsageError("no problem has " + in_quotes(part) + " in its name" + known_names(part, names));
+  if (arguments.has("--accuracy")) return print_accuracy(problems, streams.err, streams.out);
   return verify(problems, arguments, streams);
 }
 

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "cad_import/files/atomic_file.h"
+#include "pipelines/accuracy/error_files.h"
 #include "pipelines/report/report_template.h"
 #include "pipelines/results/base64.h"
 #include "pipelines/results/checked_json.h"
@@ -270,7 +271,7 @@ std::vector<std::size_t> kept_frames(const Survey& survey, std::size_t most_byte
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 Json description(const ReportFrames& frames, const Survey& survey, const std::vector<std::size_t>& kept) {
-  Json columns = Json::array(), values = Json::array(), fields = Json::array();
+  Json columns = Json::array(), values = Json::array(), fields = Json::array(), errors = Json::array();
   std::vector<double> kept_values;
   for (const Column& column : survey.columns) {
     kept_values.clear();
@@ -280,31 +281,38 @@ Json description(const ReportFrames& frames, const Survey& survey, const std::ve
                        {"name", column.what.quantity},
                        {"unit", column.what.unit}});
     values.push_back(base64_of(kept_values));
+    const auto known = frames.errors.find(column.what.heading());
+    kept_values.clear();
+    if (known != frames.errors.end())
+      for (const std::size_t i : kept) kept_values.push_back(known->second[i]);
+    errors.push_back(kept_values.empty() ? Json() : Json(base64_of(kept_values)));
   }
   for (const Field& field : survey.fields)
     fields.push_back({{"name", field.name}, {"unit", field.unit}, {"min", field.min}, {"max", field.max}});
   std::vector<std::uint32_t> counts;
   for (const std::size_t i : kept)
     counts.insert(counts.end(), survey.element_counts[i].begin(), survey.element_counts[i].end());
-  return {{"title", frames.title},
-          {"names",
-           {{"probes", frames.names.probes},
-            {"bodies", frames.names.bodies},
-            {"beams", frames.names.beams},
-            {"reactions", frames.names.reactions},
-            {"connectors", frames.names.connectors}}},
-          {"stored_frames", frames.times.size()},
-          {"box", {to_json(survey.box.min()), to_json(survey.box.max())}},
-          {"columns", columns},
-          {"values", values},
-          {"shapes",
-           {{"rational", survey.rational},
-            {"sections", survey.sections},
-            {"displaced", survey.drawn},
-            {"displacement", survey.drawn ? survey.displacement : 0},
-            {"origin", to_json(survey.origin())},
-            {"fields", fields},
-            {"element_counts", base64_of(counts)}}}};
+  Json page = {{"title", frames.title},
+               {"names",
+                {{"probes", frames.names.probes},
+                 {"bodies", frames.names.bodies},
+                 {"beams", frames.names.beams},
+                 {"reactions", frames.names.reactions},
+                 {"connectors", frames.names.connectors}}},
+               {"stored_frames", frames.times.size()},
+               {"box", {to_json(survey.box.min()), to_json(survey.box.max())}},
+               {"columns", columns},
+               {"values", values},
+               {"shapes",
+                {{"rational", survey.rational},
+                 {"sections", survey.sections},
+                 {"displaced", survey.drawn},
+                 {"displacement", survey.drawn ? survey.displacement : 0},
+                 {"origin", to_json(survey.origin())},
+                 {"fields", fields},
+                 {"element_counts", base64_of(counts)}}}};
+  if (!frames.errors.empty()) page["errors"] = errors;
+  return page;
 }
 
 /// JSON text that cannot end the <script> element it stands in. "<" occurs only in JSON's strings.
@@ -425,7 +433,8 @@ void write_report(const fs::path& directory) {
   write_page(directory, [&] {
     stored.emplace(directory);
     return ReportFrames{stored->title(), stored->names(), stored->times(),
-                        [&](std::size_t first, std::size_t count) { return stored->read(first, count); }};
+                        [&](std::size_t first, std::size_t count) { return stored->read(first, count); },
+                        errors_of_frames(directory, stored->times())};
   });
 }
 
@@ -435,11 +444,13 @@ void write_report(const fs::path& directory, const StoredResults& results) {
       [&] {
         std::vector<double> times;
         for (const Snapshot& frame : results.frames) times.push_back(frame.time);
+        auto errors = errors_of_frames(directory, times);
         return ReportFrames{results.title, results.names, std::move(times),
                             [&](std::size_t first, std::size_t count) {
                               const auto begin = results.frames.begin() + static_cast<std::ptrdiff_t>(first);
                               return std::vector<Snapshot>(begin, begin + static_cast<std::ptrdiff_t>(count));
-                            }};
+                            },
+                            std::move(errors)};
       });
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct ReportFrames {
   SnapshotNames names;
   std::vector<double> times;  ///< at least one [s]
   std::function<std::vector<Snapshot>(std::size_t first, std::size_t count)> read;
+  /// Of histories by their headings in histories.csv the errors, one for each frame; empty where they are not
+  /// known.
+  std::map<std::string, std::vector<double>> errors = {};
 };
 
 /// Writes the page (HTML) with the frames and run.json in it; it needs nothing else, no network either.

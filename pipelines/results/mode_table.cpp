@@ -29,20 +29,23 @@ double ModeRow::frequency() const { return omega / (2 * std::numbers::pi); }
 
 void write_mode_table(const std::filesystem::path& file, const ModeTable& table) {
   std::ostringstream out;
+  const bool has_errors = !table.rows.empty() && table.rows.front().error;
   if (table.buckling)
-    out << "number,factor\n";
+    out << "number,factor" << (has_errors ? ",factor.error" : "") << '\n';
   else
     out << "number,frequency [Hz],period [s]" << heads("effective_mass", "kg")
-        << heads("participation", "sqrt(kg)") << '\n';
+        << heads("participation", "sqrt(kg)") << (has_errors ? ",frequency.error [Hz]" : "") << '\n';
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const ModeRow& row = table.rows[i];
     out << i + 1 << ',';
     if (table.buckling)
-      out << text_of(row.factor, exact) << '\n';
+      out << text_of(row.factor, exact);
     else
       out << text_of(row.frequency(), exact) << ','
           << (row.omega > 0 ? text_of(1 / row.frequency(), exact) : "") << columns(row.effective_mass())
-          << columns(row.participation) << '\n';
+          << columns(row.participation);
+    if (has_errors) out << ',' << (row.error ? text_of(*row.error, exact) : "");
+    out << '\n';
   }
   for (const Diagnostic& problem : write_at_once(file, out.str()))
     throw std::runtime_error(problem.where + ": " + problem.message);

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct ModeRow {
   Eigen::Vector3d participation = Eigen::Vector3d::Zero();  ///< [sqrt(kg)]
 
   double round_off = 0;  ///< of omega^2 [1/s^2]
+  std::optional<double> error =
+      {};  ///< of mesh, where it was asked for: of the frequency [Hz], of the factor
   /// Half wave of bending in diameters of the beam, and the part by which the frequency is too high without
   /// shear and rotary inertia; infinite and 0 where the mode does not bend.
   double diameters = std::numeric_limits<double>::infinity(), excess = 0;

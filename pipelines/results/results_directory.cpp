@@ -30,10 +30,12 @@ std::string complete_name(const fs::path& name) {
 bool is_of_a_run(const fs::path& name) {
   static const std::regex ours(
       R"(histories\.csv(\.former)?|results(\.chunk[0-9]+)?\.nc|restart\.nc|run\.json|run\.log|frames\.pvd|)"
-      R"(modes\.csv|mode_[0-9]+\.pvd|report\.html|)"
+      R"(errors\.csv|errors\.nc|accuracy_level_-?[0-9]+\.json|modes\.csv|mode_[0-9]+\.pvd|report\.html|)"
       R"(deformed(_t[-+.e0-9]+|_[0-9]+)?(_solid|_section_lines|_source)?\.(step|igs|dxf|brep))");
   return std::regex_match(complete_name(name), ours);
 }
+
+bool is_of_a_level(const fs::path& name) { return complete_name(name).starts_with("accuracy_level_"); }
 
 constexpr const char* frames_directory = "frames";
 
@@ -91,7 +93,7 @@ void ResultsDirectory::lock() {
 void ResultsDirectory::clear() const {
   std::vector<fs::path> former;
   for (const auto& entry : fs::directory_iterator(path_)) {
-    if (!is_of_a_run(entry.path().filename())) continue;
+    if (!is_of_a_run(entry.path().filename()) || is_of_a_level(entry.path().filename())) continue;
     if (entry.is_directory()) fail(entry.path(), "is a directory; a run needs this name for a file");
     former.push_back(entry.path());
   }

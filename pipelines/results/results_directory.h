@@ -22,7 +22,8 @@ class ResultsDirectory {
   ResultsDirectory& operator=(const ResultsDirectory&) = delete;
 
   /// Removes what a former run has written there: the files of docs/results.md, also under their temporary
-  /// names. Throws std::runtime_error (path and reason) when these names are not free.
+  /// names, but for numbers of levels (accuracy_level_K.json), which tell what they belong to. Throws
+  /// std::runtime_error (path and reason) when these names are not free.
   void clear() const;
   /// What a run has written there, relative to it, in order; the files in frames/ count as one.
   std::vector<std::filesystem::path> files() const;

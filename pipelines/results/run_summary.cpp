@@ -122,11 +122,57 @@ Json to_json(const ModeTable& table) {
   return list;
 }
 
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json to_json(const AccuracyLevel& run) {
+  return {{"level", run.level},
+          {"elements", run.elements},
+          {"step [s]", or_null(run.step)},
+          {"steps", run.steps},
+          {"wall_time [s]", run.seconds}};
+}
+
+Json to_json(const NumberWithError& number) {
+  return {{"quantity", number.quantity},
+          {"unit", number.unit},
+          {"value", number.value},
+          {"error", or_null(number.error)},
+          {"relative", or_null(number.relative)},
+          {"place", or_null(number.s)},
+          {"time", or_null(number.time)},
+          {"not_converged", number.not_converged.empty() ? Json() : Json(number.not_converged)}};
+}
+
 template <class Item>
 Json list(const std::vector<Item>& items) {
   Json list = Json::array();
   for (const Item& item : items) list.push_back(to_json(item));
   return list;
+}
+
+Json to_json(const Accuracy& accuracy) {
+  Json json = {{"runs", list(accuracy.runs)},
+               {"target", or_null(accuracy.target)},
+               {"reached", accuracy.target ? Json(accuracy.reached) : Json()},
+               {"parted [s]", or_null(accuracy.parted)},
+               {"quantities", list(accuracy.numbers)}};
+  if (!accuracy.unreached.empty()) json["unreached"] = accuracy.unreached;
+  return json;
+}
+
+// The errors of the run's own numbers beside them.
+void add_errors(const Accuracy& accuracy, const RunSummary& summary, Json& json) {
+  const auto add = [&](const char* key, const std::vector<double>& errors) {
+    for (std::size_t i = 0; i < std::min(errors.size(), json[key].size()); ++i)
+      json[key][i]["error"] = or_null(errors[i]);
+  };
+  add("extremes", accuracy.extremes);
+  if (summary.modes) add(summary.modes->buckling ? "buckling" : "modes", accuracy.modes);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < summary.events.size(); ++i)
+    if (is_booked(summary.events[i].kind) && next < accuracy.events.size())
+      json["events"][i]["error"] = or_null(accuracy.events[next++]);
+  json["accuracy"] = to_json(accuracy);
 }
 
 Json to_json(const RunSummary& summary) {
@@ -162,6 +208,7 @@ Json to_json(const RunSummary& summary) {
     json[summary.modes->buckling ? "buckling" : "modes"] = to_json(*summary.modes);
     if (!summary.modes->buckling) json["mass [kg]"] = summary.modes->mass;
   }
+  if (summary.accuracy) add_errors(*summary.accuracy, summary, json);
   return json;
 }
 
@@ -191,6 +238,14 @@ void write_run_summary(const std::filesystem::path& file, const RunSummary& summ
       with_checksum(to_json(summary).dump(-1, ' ', false, Json::error_handler_t::replace));
   for (const Diagnostic& problem : write_at_once(file, text))
     throw std::runtime_error(problem.where + ": " + problem.message);
+}
+
+std::string status_of_run(const std::filesystem::path& directory) {
+  try {
+    return Json::parse(checked_json(directory / "run.json")).at("status").get<std::string>();
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 std::string collectors_as_json(const std::vector<CollectorOutcome>& collectors) {

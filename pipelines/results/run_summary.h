@@ -9,6 +9,7 @@
 #include "cad_import/report/diagnostic.h"
 #include "fem/motion/record/run_event.h"
 #include "fem/motion/record/snapshot.h"
+#include "pipelines/results/accuracy.h"
 #include "pipelines/results/contact_statistics.h"
 #include "pipelines/results/evidence.h"
 #include "pipelines/results/mode_table.h"
@@ -79,6 +80,7 @@ struct RunSummary {
   std::vector<RunExtreme> extremes;
   std::vector<CollectorOutcome> collectors = {};
   std::optional<ModeTable> modes = {};  ///< of an analysis of modes or buckling
+  std::optional<Accuracy> accuracy = {};
   std::vector<FeatureEvidence> evidence;
   std::vector<Diagnostic> diagnostics;
   std::vector<std::filesystem::path> files;  ///< written, relative to the results directory
@@ -87,6 +89,9 @@ struct RunSummary {
 /// Writes the summary as JSON, to a temporary name that is renamed. Numbers that are not finite become null.
 /// Throws std::runtime_error (file and reason).
 void write_run_summary(const std::filesystem::path& file, const RunSummary& summary);
+
+/// The status in the run.json of a directory; empty where there is none that can be read.
+std::string status_of_run(const std::filesystem::path& directory);
 
 /// The array that run.json has under "collectors".
 std::string collectors_as_json(const std::vector<CollectorOutcome>& collectors);

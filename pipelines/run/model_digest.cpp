@@ -29,6 +29,13 @@ std::string model_digest(const CaseFile& c, const BuiltModel& built) {
   return text + "files " + sha256_of_text(files) + "\n";
 }
 
+std::string text_without_accuracy(const CaseFile& c) {
+  auto json = nlohmann::ordered_json::parse(c.json);
+  if (!json.contains("analysis") || !json["analysis"].contains("accuracy")) return c.json;
+  json["analysis"].erase("accuracy");
+  return json.dump();
+}
+
 std::vector<std::string> differing_parts(const std::string& a, const std::string& b) {
   const std::map<std::string, std::string> of_a = parts_of(a), of_b = parts_of(b);
   std::map<std::string, std::string> all = of_a;

@@ -13,4 +13,7 @@ std::string model_digest(const CaseFile& c, const BuiltModel& built);
 /// The keys of the parts by which two digests differ.
 std::vector<std::string> differing_parts(const std::string& a, const std::string& b);
 
+/// The text of a case without what it asks of errors, on which no result depends.
+std::string text_without_accuracy(const CaseFile& c);
+
 }  // namespace nurbeam

@@ -10,6 +10,7 @@
 #include "nurbs/number_text.h"
 #include "pipelines/case/limits.h"
 #include "pipelines/model/slopes.h"
+#include "pipelines/run/level_model.h"
 #include "pipelines/run/simulation_plan.h"
 
 namespace nurbeam {
@@ -105,16 +106,7 @@ class MotionMesh {
   bool double_elements() {
     for (const int b : beams_)
       if (2 * built_.model.beams[b].home_intervals() > most_elements) return false;
-    for (const int b : beams_) {
-      Beam& beam = built_.model.beams[b];
-      std::vector<HomeNode> home;
-      for (int h = 0; h < beam.home_intervals(); ++h) {
-        home.push_back(beam.home[h]);
-        home.push_back({.s = (beam.home_place(h) + beam.home_place(h + 1)) / 2});
-      }
-      home.push_back(beam.home.back());
-      beam.home = std::move(home);
-    }
+    for (const int b : beams_) halve_elements(built_.model.beams[b]);
     smooth_fine_kinks(built_.model, built_.slopes);
     return true;
   }

@@ -14,6 +14,8 @@
 
 #include "fem/motion/run/simulation.h"
 #include "nurbs/number_text.h"
+#include "pipelines/accuracy/error_files.h"
+#include "pipelines/accuracy/level_file.h"
 #include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/diagnostics/simulation_text.h"
@@ -26,10 +28,14 @@
 #include "pipelines/results/file_hash.h"
 #include "pipelines/results/results_directory.h"
 #include "pipelines/results/run_summary.h"
+#include "pipelines/run/accuracy_lines.h"
+#include "pipelines/run/accuracy_question.h"
+#include "pipelines/run/accuracy_run.h"
 #include "pipelines/run/closing_lines.h"
 #include "pipelines/run/history_rows.h"
 #include "pipelines/run/kept_memory.h"
 #include "pipelines/run/mode_run.h"
+#include "pipelines/run/model_digest.h"
 #include "pipelines/run/motion_mesh.h"
 #include "pipelines/run/progress.h"
 #include "pipelines/run/round_off.h"
@@ -62,7 +68,7 @@ ExitCode exit_code_of(SimulationStatus status) {
 
 // What a restart point belongs to: the program, the case with its overrides, the CAD files.
 std::string digest_of_inputs(const CaseFile& c, const BuiltModel& built) {
-  std::string text = std::string(NURBEAM_VERSION) + "\n" + c.json + "\n";
+  std::string text = std::string(NURBEAM_VERSION) + "\n" + text_without_accuracy(c) + "\n";
   for (const auto& file : built.inputs) text += sha256_of_file(file) + "\n";
   return sha256_of_text(text);
 }
@@ -70,6 +76,9 @@ std::string digest_of_inputs(const CaseFile& c, const BuiltModel& built) {
 std::filesystem::path restart_file(const std::filesystem::path& directory) {
   return directory / "restart.nc";
 }
+
+// What the status of a run begins with whose errors are not as small as was asked.
+constexpr const char* accuracy_status = "accuracy";
 
 // A restart point that cannot be used.
 struct UnusableCheckpoint : std::runtime_error {
@@ -92,6 +101,19 @@ Checkpoint find_checkpoint(const std::filesystem::path& directory, const std::st
   return point;
 }
 
+// The end of a finished run of these inputs, from which its errors can be found without running it again.
+std::optional<Checkpoint> finished_before(const CaseFile& c, const std::filesystem::path& directory,
+                                          const std::string& inputs) {
+  if (!c.analysis.accuracy.is_on || !std::filesystem::exists(restart_file(directory))) return {};
+  const std::string status = status_of_run(directory);
+  if (status != "done" && !status.starts_with(accuracy_status)) return {};
+  try {
+    return find_checkpoint(directory, inputs);
+  } catch (const std::runtime_error&) {
+    return {};  // of another case: it is run anew
+  }
+}
+
 // The run itself, once everything it needs is there.
 class Run {
  public:
@@ -104,21 +126,24 @@ class Run {
         directory_(options.out),
         inputs_(digest_of_inputs(c, built_)),
         summary_(std::move(summary)) {
-    if (options.resume)
-      from_ = find_checkpoint(options.out, inputs_);
-    else
-      directory_.clear();
+    from_ = options.resume ? find_checkpoint(options.out, inputs_) : finished_before(c, options.out, inputs_);
+    if (!from_) directory_.clear();
+    remove_other_levels(options.out, c.analysis.accuracy.is_on ? inputs_ : "");
     check_is_file(options.out / "run.log");
-    log_.emplace(options.out / "run.log", options.resume ? std::ios::app : std::ios::trunc);
+    log_.emplace(options.out / "run.log", from_ ? std::ios::app : std::ios::trunc);
+    if (c.analysis.accuracy.is_on)
+      accuracy_.emplace(c, built_, options.threads, LevelStore{options.out, inputs_});
   }
 
   ExitCode play() {
     begin_log();
     RunOutputs outputs(case_, built_, options_.out, inputs_, from_ ? &*from_ : nullptr);
+    if (accuracy_) watch(outputs);
     const SimulationReport simulated =
         case_.analysis.has_modes() ? find_modes_into(outputs) : simulate_into(outputs);
     messages_.begin("results");
     outputs.finish();
+    if (accuracy_ && simulated.status == SimulationStatus::done && !thrown_) find_errors(simulated, outputs);
     // A run that ended before its first frame has nothing to show.
     const bool with_report = case_.output.report && outputs.frame_count() > 0;
     summarise(simulated, outputs, with_report);
@@ -130,12 +155,62 @@ class Run {
     if (simulated.status != SimulationStatus::done && !thrown_)
       tell_failure(outcome_in_world(simulated, built_));
     if (simulated.status == SimulationStatus::done) tell_outcome(simulated, with_report);
+    if (summary_.accuracy) tell_accuracy(*summary_.accuracy);
     *log_ << "ended at t = " << simulated.time << " s after " << simulated.steps << " steps" << std::endl;
     if (thrown_) std::rethrow_exception(thrown_);
-    return exit_code_of(simulated.status);
+    return exit_code_of(simulated);
   }
 
  private:
+  ExitCode exit_code_of(const SimulationReport& simulated) const {
+    if (errors_interrupted_) return exit_interrupted;
+    if (summary_.accuracy && !summary_.accuracy->reached) return exit_not_converged;
+    return nurbeam::exit_code_of(simulated.status);
+  }
+
+  // Starts the runs that errors come from; a run that goes on has frames and steps already.
+  void watch(RunOutputs& outputs) {
+    if (from_ && from_->snapshots > 0) {
+      const StoredFrames stored(options_.out);
+      for (std::size_t i = 0; i < from_->snapshots; ++i) {
+        const Snapshot frame = std::move(stored.read(i, 1)[0]);
+        for (const StepRecord& step : frame.steps) accuracy_->step(step);
+        accuracy_->look_at(frame);
+      }
+    }
+    if (from_)
+      for (const StepRecord& step : from_->steps) accuracy_->step(step);
+    outputs.show_frames_to([this](const Snapshot& frame) { accuracy_->look_at(frame); });
+    accuracy_->begin();
+  }
+
+  void find_errors(const SimulationReport& simulated, const RunOutputs& outputs) {
+    messages_.begin("accuracy");
+    const std::function<bool()> interrupted = interruption();
+    const AccuracyTable* table = accuracy_->finish(
+        simulated, outputs.extremes(), summary_.modes, interrupted,
+        [this](const auto& line) { options_.quiet ? void(*log_ << line << std::endl) : tell(line); });
+    errors_interrupted_ = interrupted();
+    if (!table) return;
+    summary_.accuracy = accuracy_->accuracy();
+    if (summary_.modes) {
+      for (std::size_t i = 0; i < summary_.modes->rows.size(); ++i)
+        if (std::isfinite(summary_.accuracy->modes[i]))
+          summary_.modes->rows[i].error = summary_.accuracy->modes[i];
+      write_mode_table(options_.out / "modes.csv", *summary_.modes);
+    } else {
+      write_errors_table(options_.out, *table);
+      write_errors_netcdf(options_.out, *table, history_columns(snapshot_names(built_)),
+                          accuracy_->own_times());
+    }
+  }
+
+  void tell_accuracy(const Accuracy& accuracy) {
+    for (const std::string& line : accuracy_lines(accuracy))
+      options_.quiet ? void(*log_ << line << std::endl) : tell(line);
+    if (!accuracy.reached) tell_failure(summary_.status);
+  }
+
   // A line for people, and for the log.
   void tell(const std::string& line) {
     messages_.text(line);
@@ -206,6 +281,7 @@ class Run {
     observer.progress = [&](const StepRecord& step) {
       shown.update(step);
       logged.update(step);
+      if (accuracy_) accuracy_->step(step);
       messages_.reach(step.time / end_time, step.time);
       if (options_.progress) options_.progress(step);
     };
@@ -289,6 +365,10 @@ class Run {
 
   void summarise(const SimulationReport& simulated, const RunOutputs& outputs, bool with_report) {
     summary_.status = outcome_in_world(simulated, built_);
+    if (summary_.accuracy && !summary_.accuracy->reached)
+      summary_.status = accuracy_status + (" of " + text_of(100 * *summary_.accuracy->target, 3)) +
+                        " % is not reached: " + summary_.accuracy->unreached;
+    if (errors_interrupted_) summary_.status = std::string(accuracy_status) + ": interrupted";
     summary_.wall_times.output = outputs.seconds();
     summary_.wall_times.motion = simulated.motion_seconds;
     summary_.diagnostics.insert(summary_.diagnostics.end(), outputs.diagnostics().begin(),
@@ -342,6 +422,8 @@ class Run {
   RunSummary summary_;
   std::optional<Checkpoint> from_;
   std::optional<std::ofstream> log_;
+  std::optional<AccuracyRun> accuracy_;
+  bool errors_interrupted_ = false;
   std::exception_ptr thrown_;  // by a function of the caller
 };
 
@@ -357,6 +439,10 @@ int run_built(const CaseFile& c, const BuildReport& report, const RunOptions& op
   summary.model = model_summary(c, *report.value);
   summary.evidence = run_evidence(c, *report.value);
   summary.diagnostics = report.diagnostics;
+  if (const auto errors = unknown_in_accuracy(c, *report.value); !errors.empty()) {
+    messages.findings(errors);
+    return exit_bad_input;
+  }
   summary.wall_times.import = report.value->import_seconds;
   summary.wall_times.model = build_seconds;
   std::optional<ThreadLimit> limit;

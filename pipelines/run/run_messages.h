@@ -22,9 +22,10 @@ namespace nurbeam {
 ///   {"phase": "motion", "fraction": 0.25, "time": 1.25, "seconds": 0.8, "seconds_to_go": 2.4}
 ///   {"phase": "ended", "code": 0, "out": "case_results"}
 ///
-/// A phase is "model", "equilibrium", "motion", "modes", "results" or "ended". While a phase lasts its line
-/// comes every 0.2 s, and one when it begins. `fraction` is 0 to 1, `time` the simulated time [s], of a
-/// static analysis the load factor; `seconds` of wall time since the phase began. What is not known is null.
+/// A phase is "model", "equilibrium", "motion", "modes", "accuracy", "results" or "ended". While a phase
+/// lasts its line comes every 0.2 s, and one when it begins. `fraction` is 0 to 1, `time` the simulated time
+/// [s], of a static analysis the load factor; `seconds` of wall time since the phase began. What is not known
+/// is null.
 class RunMessages {
  public:
   enum class Form { text, json };

@@ -105,6 +105,7 @@ void RunOutputs::write(Snapshot local) {
     if (paraview_) paraview_->write(frame);
     look_at(frame);
     contacts_.look_at(frame);
+    if (shown_to_) shown_to_(frame);
     cad_.write(frame, diagnostics_);
     results_.write(std::move(frame));
   });

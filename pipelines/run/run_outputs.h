@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "pipelines/case/case_file.h"
@@ -30,6 +31,8 @@ class RunOutputs {
   /// Writes elements of a beam, in the model's own coordinates, of the frame at that time, which is written
   /// next.
   void write_ahead(double time, int beam, std::vector<ElementRecord>& local);
+  /// Shows each frame that is written, in world coordinates.
+  void show_frames_to(std::function<void(const Snapshot&)> look) { shown_to_ = std::move(look); }
   /// Writes one frame, in the model's own coordinates.
   void write(Snapshot local);
   /// Writes a row of histories of a moment between two frames, of contents_between_frames, in the model's own
@@ -80,6 +83,7 @@ class RunOutputs {
   FrameChecks checks_;
   RunExtremes extremes_;
   ContactRecords contacts_;
+  std::function<void(const Snapshot&)> shown_to_;
 };
 
 }  // namespace nurbeam

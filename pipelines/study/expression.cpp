@@ -31,7 +31,8 @@ struct Expression::Node {
   Arguments arguments = {};
   double number = 0;
   std::string name = {};  ///< of a leaf that is no number
-  bool at_time = false;   ///< the first argument is the time at which a history is asked for
+  bool is_error = false;
+  bool at_time = false;  ///< the first argument is the time at which a history is asked for
   enum class Comparison { none, less, greater } comparison = Comparison::none;  ///< of the first argument
 
   ExpressionValue evaluate(const ExpressionScope& scope) const {
@@ -44,6 +45,10 @@ struct Expression::Node {
   void collect(std::vector<std::string>& names) const {
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     for (const auto& argument : arguments) argument->collect(names);
+  }
+  bool has_error() const {
+    return is_error || std::ranges::any_of(
+                           arguments, [](const auto& each) { return each->has_error(); });
   }
   void collect(std::vector<double>& times) const {
     if (at_time) try {
@@ -193,7 +198,7 @@ const std::vector<NamedFunction>& functions() {
 }
 
 std::vector<std::string> function_names() {
-  std::vector<std::string> names = {"at", "time"};
+  std::vector<std::string> names = {"at", "time", "error"};
   for (const NamedFunction& f : functions())
     if (std::find(names.begin(), names.end(), f.name) == names.end()) names.push_back(f.name);
   return names;
@@ -366,6 +371,7 @@ class ExpressionParser {
   NodePointer function(const std::string& called, std::size_t from) {
     if (called == "at") return at_call();
     if (called == "time") return time_call();
+    if (called == "error") return error_call();
     Node::Arguments arguments;
     if (!accept(")")) {
       do arguments.push_back(comparison());
@@ -408,6 +414,22 @@ class ExpressionParser {
       const auto* t = std::get_if<double>(&values[0]);
       if (!t) throw std::invalid_argument("the time of at(time, history) must be one number");
       return at_time(*t, f, scope.times);
+    };
+    return std::make_shared<const Node>(std::move(node));
+  }
+  /// error(number): of its mesh and step.
+  NodePointer error_call() {
+    const NodePointer number = comparison();
+    expect(")");
+    Node node{.arguments = {number}, .is_error = true};
+    node.operation = [number](const Values& values, const ExpressionScope& scope) -> ExpressionValue {
+      const auto one = [](const ExpressionValue& value) {
+        if (const auto* found = std::get_if<double>(&value)) return *found;
+        throw std::invalid_argument("error(...) is that of one number, as error(max(trolley.speed))");
+      };
+      const double own = one(values[0]);
+      if (!scope.error_of) throw std::invalid_argument("error(...) needs a run of a case");
+      return scope.error_of(own, [&](const ExpressionScope& other) { return one(number->evaluate(other)); });
     };
     return std::make_shared<const Node>(std::move(node));
   }
@@ -458,6 +480,8 @@ std::optional<std::pair<Expression, Expression>> Expression::sides() const {
   if (root_->comparison == Node::Comparison::less) return std::pair(second, first);
   return std::pair(first, second);
 }
+
+bool Expression::asks_for_errors() const { return root_->has_error(); }
 
 std::vector<double> Expression::times() const {
   std::vector<double> times;

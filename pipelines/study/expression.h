@@ -32,14 +32,16 @@ struct ExpressionScope {
   std::function<double(const std::string& kind, const std::string& of)> event_time = {};
   /// The stored times [s], increasing; empty where there are none.
   std::vector<double> times = {};
+  /// The error of mesh and step of a number, which `of` gives of other runs too; empty where it is not known.
+  std::function<double(double number, const std::function<double(const ExpressionScope&)>& of)> error_of = {};
 };
 
 /// A formula over numbers and histories, as studies have them: + - * / ^, comparisons (1 or 0), the functions
 /// abs, sqrt, exp, log, sin, cos, tan, atan2, hypot, or (the first argument where it is a number, else the
 /// second), and of histories min, max, first, last, mean, rms (weighted by time), integral and at(t, history)
 /// with t a number, start or end, and time(kind, body). passes(history, value) is the first time at which a
-/// history comes to a value. A name is a column, NAME.QUANTITY, or a variable;
-/// parts that are no words stand in single quotes: 'body 1'.speed.
+/// history comes to a value; error(number) is its error of mesh and step. A name is a column, NAME.QUANTITY,
+/// or a variable; parts that are no words stand in single quotes: 'body 1'.speed.
 class Expression {
  public:
   /// Throws ExpressionError.
@@ -52,6 +54,8 @@ class Expression {
 
   /// The variables and columns that it names, each once.
   std::vector<std::string> names() const;
+  /// Whether it has error(...).
+  bool asks_for_errors() const;
   /// The times at which it asks for histories, of those that depend on nothing.
   std::vector<double> times() const;
   /// Of a comparison of two sides: what must be greater, and the other; nothing of another expression.

@@ -89,6 +89,24 @@ void Histories::replace(std::size_t time, const Histories& other) {
   for (std::size_t i = 0; i < columns_->size(); ++i) values_[i][time] = other.values_[i][time];
 }
 
+Histories Histories::moved(const Histories& other, double part) const {
+  constexpr double window = 0.05;
+  Histories result = *this;
+  if (times_.empty()) return result;
+  const double beyond = window * (times_.back() - times_.front());
+  const std::size_t common = std::min(times_.size(), other.times_.size());
+  for (std::size_t column = 0; column < values_.size(); ++column) {
+    double largest = 0;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      for (; next < common && times_[next] <= times_[i] + beyond; ++next)
+        largest = std::fmax(largest, std::abs(values_[column][next] - other.values_[column][next]));
+      result.values_[column][i] += part * largest;
+    }
+  }
+  return result;
+}
+
 SnapshotContents Histories::contents() const {
   SnapshotContents all{.beams = false,
                        .probes = false,

@@ -36,6 +36,10 @@ class Histories {
   /// Adds to the values of one time, to each another part of its largest from `part` to twice that.
   void nudge(std::size_t time, double part);
 
+  /// Moved by a part of the largest difference from another run of the variant up to each time, and a
+  /// twentieth of the run beyond it. Times that the other does not have keep the difference before.
+  Histories moved(const Histories& other, double part) const;
+
   /// What of a snapshot they are read from.
   SnapshotContents contents() const;
   std::vector<BeamPart> parts_of_beams() const;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "nurbs/number_text.h"
+#include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/diagnostics/exit_code.h"
 #include "pipelines/diagnostics/print_diagnostics.h"
 #include "pipelines/run/signals.h"
@@ -21,6 +22,7 @@
 #include "pipelines/study/mpi_engine.h"
 #include "pipelines/study/study_output.h"
 #include "pipelines/study/study_report.h"
+#include "pipelines/study/variant_errors.h"
 
 namespace nurbeam {
 
@@ -211,6 +213,15 @@ void warn_of_answer(const StudyResult& result, const StudyOptions& options, std:
            "intervals, which are those of an estimate that nothing holds; widen the constraint for them\n";
 }
 
+// Quantities whose differences are noise, and so optima and indices of them.
+void warn_of_errors(const StudyFile& study, const StudyResult& result, const StudyOptions& options,
+                    std::ostream& err) {
+  for (const std::string& name : drowned_in_errors(study, result.variants))
+    err << "warning: " << options.file.string() << ": quantities: " << in_quotes(name)
+        << " differs from variant to variant by less than its errors of mesh and step: what the study finds "
+           "of it is their noise; take more elements and shorter steps in the case\n";
+}
+
 int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEngine& engine,
                   std::ostream& out, std::ostream& err) {
   silence_openturns();
@@ -228,6 +239,7 @@ int run_and_write(const ReadyStudy& ready, const StudyOptions& options, StudyEng
   write_results(ready, options, result);
   out << answer_text(ready.study, result) << "open " << (options.out / "study.html").string() << "\n";
   warn_of_answer(result, options, err);
+  warn_of_errors(ready.study, result, options, err);
   if (result.interrupted) {
     err << "interrupted after " << result.variants.size() << " variants; go on with --resume\n";
     return exit_interrupted;

@@ -57,6 +57,7 @@ class StudyReader : StudyPartReader {
         });
     for_each_item(json_, "quantities", "",
                   [&](const Json& item, const std::string& path) { read_quantity(item, path); });
+    if (flag(json_, "accuracy")) add_errors();
     check_derived();
     read_study_task(json_, study_, findings_);
     check_formulas(study_, findings_);
@@ -66,6 +67,16 @@ class StudyReader : StudyPartReader {
   }
 
  private:
+  // Beside each quantity its error.
+  void add_errors() {
+    const std::vector<StudyQuantity> quantities = study_.quantities;
+    for (const StudyQuantity& quantity : quantities) {
+      if (quantity.value.asks_for_errors()) continue;
+      std::string name = quantity.name;
+      study_.quantities.push_back({name + ".error", quantity.unit, quantity.path,
+                                   Expression::parse("error(" + quantity.value.text() + ")")});
+    }
+  }
   void read_variable(const Json& json, const std::string& path) {
     StudyVariable variable{.name = text(json, "name"), .path = path};
     variable.target = read_target(json, path);

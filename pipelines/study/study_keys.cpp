@@ -213,6 +213,10 @@ const Shape& study_keys() {
         "expressions of the variables; a variant runs where all of them hold"},
        {"quantities", array(quantity_of_interest(), 1),
         "what is asked of each variant; needed but for \"calibrate\""},
+       {"accuracy", boolean(),
+        "true: beside each quantity NAME its error of mesh and step, NAME.error, from runs with other elements "
+        "and steps; false when omitted",
+        false, "case"},
        {"plan", plan(), "which variants run"},
        {"sensitivity", sensitivity(), "Sobol indices of the quantities"},
        {"reliability", reliability(), "the probability that a limit is passed"},

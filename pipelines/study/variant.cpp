@@ -16,6 +16,7 @@
 #include "pipelines/run/simulation_plan.h"
 #include "pipelines/study/gradient.h"
 #include "pipelines/study/histories.h"
+#include "pipelines/study/variant_errors.h"
 #include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
@@ -113,6 +114,8 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
   const CaseFileReport& read = model.read;
   const BuildReport& built = model.built;
   Histories histories(study, *built.value);
+  std::optional<VariantErrors> errors;
+  if (asks_for_errors(study)) errors.emplace(study, *read.value, *built.value, variant.values);
   const auto start = std::chrono::steady_clock::now();
   bool too_long = false;
   SimulationObserver observer;
@@ -123,6 +126,7 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
     too_long = study.time_limit && taken.count() > *study.time_limit;
     return too_long;
   };
+  if (errors) observer.progress = [&](const StepRecord& step) { errors->step(step); };
   const SimulationOptions options = simulation_options(*read.value);
   std::optional<VariantGradient> gradient;
   if (study.derivatives) {
@@ -134,8 +138,11 @@ void simulate_variant(const StudyFile& study, const StudyCase& study_case, Varia
     return end(variant, VariantStatus::timed_out, "took longer than " + text_of(*study.time_limit) + " s");
   if (run.status != SimulationStatus::done)
     return end(variant, VariantStatus::failed, outcome_in_world(run, *built.value));
-  const ExpressionScope scope =
-      scope_of_run(study, variant.values, histories, built.value->model, run.events);
+  ExpressionScope scope = scope_of_run(study, variant.values, histories, built.value->model, run.events);
+  if (errors) {
+    errors->run(histories, run.events, observer.interrupted);
+    scope.error_of = [&](double number, const auto& of) { return errors->error(number, of); };
+  }
   fill_quantities(study, scope, variant);
   if (gradient && variant.status == VariantStatus::done)
     variant.gradient = gradient->of_quantities(histories, run.events);
@@ -185,7 +192,8 @@ void check_kind(const StudyFile& study, const StudyQuantity& quantity, const Bea
                                           known_names(of, known));
             return static_cast<double>(first_event({}, model, kind, of));
           },
-      .times = {0, 1}};
+      .times = {0, 1},
+      .error_of = [](double, const auto&) { return 1.0; }};
   try {
     quantity.value.number(scope);
   } catch (const std::invalid_argument& problem) {
@@ -238,6 +246,12 @@ void check_derivatives(const StudyFile& study, const StudyCase& study_case, cons
                        in_quotes(name) +
                            " has no derivative here; take \"derivatives\": \"differences\", or a "
                            "method without derivatives");
+  for (const StudyQuantity& quantity : study.quantities)
+    if (quantity.value.asks_for_errors())
+      findings.error(quantity.path + ".value",
+                     in_quotes(quantity.value.text()) +
+                         " has no derivative here; take \"derivatives\": \"differences\", or a method "
+                         "without derivatives");
   try {
     const VariantGradient gradient(study, study_case, values, case_file, model);
   } catch (const std::invalid_argument& problem) {

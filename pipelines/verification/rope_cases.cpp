@@ -54,10 +54,12 @@ RunRecord run_text(const std::string& text) {
   observer.snapshot = [&](const Snapshot& frame) {
     record.frames.push_back(to_world(built.value->frame, frame));
   };
-  record.report = simulate(noted(built.value->model, simulation_options(*read.value)),
-                           probe_places(*built.value), simulation_options(*read.value), observer);
+  record.report =
+      simulate(noted(built.value->model, simulation_options(*read.value)), probe_places(*built.value),
+               at_problem_level(simulation_options(*read.value)), observer);
   if (record.report.status != SimulationStatus::done)
     throw std::runtime_error(outcome_in_world(record.report, *built.value));
+  keep_numbers(record.frames, record.report);
   return record;
 }
 

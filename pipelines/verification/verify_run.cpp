@@ -18,9 +18,10 @@ RunRecord run_model(const BeamModel& model, const std::vector<double>& times, do
   options.integrator = integrator;
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& frame) { record.frames.push_back(frame); };
-  record.report = simulate(noted(model, options), probes, options, observer);
+  record.report = simulate(noted(model, options), probes, at_problem_level(options), observer);
   if (record.report.status != SimulationStatus::done)
     throw std::runtime_error(outcome_text(record.report, model));
+  keep_numbers(record.frames, record.report);
   return record;
 }
 

@@ -17,11 +17,12 @@ those of the case file (docs/case-reference.md).
 """
 
 from ._core import version as __version__
+from .accuracy import Accuracy, NumberWithError
 from .curves import ClosestPoint, Curve, Curves, read, write
 from .errors import CadError, CaseError, CaseWarning, Error, Finding
 from .loads import Load
 from .model import Beam, Body, Circle, IBeam, Material, Model, Pipe, Rectangle, Rope, Section, load, schema
-from .results import BeamShape, ConnectorPull, Extreme, Histories, Mode, Motion, Results, RunError, Snapshot
+from .results import BeamShape, ConnectorPull, Extreme, Histories, Mode, Modes, Motion, Results, RunError, Snapshot
 from .routing import Route, route, routes
 from .signals import Signal
 from .simulation import Checkpoint, Simulation
@@ -31,7 +32,8 @@ from .system import System
 __all__ = [
     "Model", "load", "Circle", "Pipe", "Rectangle", "IBeam", "Rope", "Section", "Material", "Beam", "Body", "Load", "schema",
     "Curve", "Curves", "ClosestPoint", "read", "write",
-    "Results", "Extreme", "Histories", "Snapshot", "BeamShape", "Motion", "ConnectorPull", "Mode",
+    "Results", "Extreme", "Histories", "Snapshot", "BeamShape", "Motion", "ConnectorPull", "Mode", "Modes",
+    "Accuracy", "NumberWithError",
     "route", "routes", "Route",
     "Simulation", "Checkpoint", "Signal", "System", "study", "Study", "vary",
     "Error", "CaseError", "CadError", "RunError", "CaseWarning", "Finding",

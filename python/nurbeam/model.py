@@ -8,6 +8,7 @@ import json
 import math
 import os
 import re
+import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
@@ -650,9 +651,14 @@ class Model:
         is the time between snapshots. With `out` the run writes a results directory, as the command line does; `resume`
         continues from the checkpoint there. Otherwise the results are in memory only. `progress` shows a bar, by tqdm; when omitted on a terminal.
 
+        `accuracy=True` estimates the errors of mesh and step, `accuracy="1 %"` refines both until they are below it:
+        `results.accuracy`. A target that is not reached is a warning.
+
         CaseError for a model that cannot be one, RunError (with the `results` until then) where the run ends before its
         end; Ctrl-C ends it with KeyboardInterrupt. Other threads go on meanwhile."""
         keys = {"end_time": end_time, "step": step, **analysis}
+        if isinstance(analysis.get("accuracy"), (str, float)):
+            keys["accuracy"] = {"target": analysis["accuracy"]}
         built, findings = self._built(keys, every)
         findings += findings_of(built.divide_for_motion(bool(self._laws or self._motions)))
         tell(findings)
@@ -660,15 +666,35 @@ class Model:
             return self._run_into(built, out, resume, progress)
         if resume:
             raise ValueError('resume goes on from the restart point of a results directory; name it with "out"')
+        accuracy = self._accuracy_in_memory(built, keys, progress)
         if built.analysis in ("modes", "buckling"):
             recording, report = _core.modes(built, self._functions())
             results = Results._of(recording, report)
             if not report["done"]:
                 raise RunError(report["status"], results)
             tell(findings_of(report["warnings"]))
+            results._accuracy = accuracy._accuracy if accuracy else None
             return results
+        if accuracy:
+            return accuracy
         with progress_bar(built, progress) as told:
             return self._begin(built, None).run(told)
+
+    def _accuracy_in_memory(
+        self, built: _core.BuiltCase, keys: Mapping[str, Any], progress: bool | None
+    ) -> Results | None:
+        """The results of a run that is asked for its errors, by way of a directory that is gone then; None of one that is
+        not asked."""
+        asked = keys.get("accuracy")
+        if asked is None:
+            asked = self.case.get("analysis", {}).get("accuracy", False)
+        if asked is False:
+            return None
+        with tempfile.TemporaryDirectory() as folder:
+            results = self._run_into(built, folder, False, progress)
+            results.directory = None
+            results._summary = built.summary()
+        return results
 
     def _run_into(
         self, built: _core.BuiltCase, out: str | os.PathLike[str], resume: bool, progress: bool | None
@@ -682,7 +708,9 @@ class Model:
         if code in (2, 4):
             raise Error("\n".join(lines) or messages)
         results = Results(out)
-        if code != 0:
+        if code == 3 and results._accuracy is not None and not results._accuracy.reached:
+            tell([Finding("warning", "accuracy", "\n".join(lines))])
+        elif code != 0:
             raise RunError("\n".join(lines) or messages, results)
         said = [line.removeprefix("warning: ") for line in messages.splitlines() if line.startswith("warning: ")]
         tell(Finding("warning", *line.split(": ", 1)) for line in said)

@@ -41,14 +41,20 @@ def _axes(ax: matplotlib.axes.Axes | None) -> matplotlib.axes.Axes:
 
 
 def histories(
-    times: Array, columns: Mapping[str, tuple[Array, str]], ax: matplotlib.axes.Axes | None
+    times: Array,
+    columns: Mapping[str, tuple[Array, str]],
+    ax: matplotlib.axes.Axes | None,
+    errors: Mapping[str, Array] | None = None,
 ) -> matplotlib.axes.Axes:
-    """Over time, each with its unit."""
+    """Over time, each with its unit, and with its error as a band where that is known."""
     ax = _axes(ax)
     for name, (values, unit) in columns.items():
         parts = [(name, values)] if values.ndim == 1 else [(f"{name}.{c}", values[:, i]) for i, c in enumerate("xyz")]
         for label, part in parts:
-            ax.plot(times, part, label=f"{label} [{unit}]")
+            line = ax.plot(times, part, label=f"{label} [{unit}]")[0]
+            if errors is not None and label in errors and len(errors[label]) == len(part):
+                low, high = part - errors[label], part + errors[label]
+                ax.fill_between(times, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
     ax.set_xlabel("time [s]")
     units = {unit for _, unit in columns.values()}
     if len(columns) == 1 and ax.lines[-1] is not None and next(iter(columns.values()))[0].ndim == 1:

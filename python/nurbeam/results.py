@@ -8,12 +8,13 @@ import operator
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .accuracy import Accuracy
 from .checked import reduced
 from .curves import Curve, write
 from .errors import ByName, Error, MissingResults, findings_of, tell, unknown
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-__all__ = ["Results", "RunError", "Extreme", "Histories", "Snapshot", "BeamShape", "Motion", "Mode"]
+__all__ = ["Results", "RunError", "Extreme", "Histories", "Snapshot", "BeamShape", "Motion", "Mode", "Modes"]
 
 Array = npt.NDArray[np.float64]
 
@@ -145,6 +146,15 @@ class Mode(NamedTuple):
     """(3,) along x, y and z [kg]"""
     shape: Snapshot
     """Moved by an amplitude that makes it visible."""
+
+
+class Modes(List[Mode]):
+    """Modes, the lowest first, with their `errors`, (modes,): of mesh, of the frequency [Hz] or the factor, of a run that
+    was asked for them; else NaN."""
+
+    def __init__(self, modes: Sequence[Mode] = (), errors: Sequence[float] = ()):
+        super().__init__(modes)
+        self.errors: Array = np.array(errors, dtype=float)
 
 
 class BeamShape:
@@ -324,6 +334,8 @@ class Results(Sequence[Snapshot]):
         """How the run ended, and what it took; of a directory what its run.json holds. `results.report("x.html")` puts its
         report page into a file."""
         self._histories: Histories | None = None
+        facts = report.get("accuracy")
+        self._accuracy = Accuracy._of_directory(facts, self.directory) if facts else None
 
     @classmethod
     def _of(cls, recording: _core.Recording, report: Mapping[str, Any], summary: str = "") -> Results:
@@ -333,6 +345,7 @@ class Results(Sequence[Snapshot]):
         results._summary = summary
         results.report = RunReport(report, results._page)
         results._histories = None
+        results._accuracy = None
         return results
 
     @property
@@ -371,13 +384,20 @@ class Results(Sequence[Snapshot]):
         return self._recording.bodies
 
     @property
-    def modes(self) -> list[Mode]:
+    def accuracy(self) -> Accuracy:
+        """The errors of mesh and step, of a run that was asked for them: `model.run(..., accuracy=True)`. Error without."""
+        if self._accuracy is None:
+            raise Error("the run was not asked for its errors; run with accuracy=True, or accuracy=\"1 %\"")
+        return self._accuracy
+
+    @property
+    def modes(self) -> Modes:
         """Of an analysis of modes or buckling in memory, the lowest first."""
         table = self._recording.modes()
         if table is None:
             raise Error('there are no modes; run with type="modes" or type="buckling", and without "out"')
         buckling, _, rows = table
-        return [
+        modes = [
             Mode(
                 float("nan") if buckling else omega / (2 * np.pi),
                 factor if buckling else float("nan"),
@@ -386,6 +406,9 @@ class Results(Sequence[Snapshot]):
             )
             for i, (omega, factor, participation) in enumerate(rows, 1)
         ]
+        known = self._accuracy.table() if self._accuracy is not None else []
+        errors = {number.quantity: number.error for number in known}
+        return Modes(modes, [errors.get(f"mode {i}", float("nan")) for i in range(1, len(modes) + 1)])
 
     @property
     def extremes(self) -> dict[str, Extreme]:
@@ -413,7 +436,7 @@ class Results(Sequence[Snapshot]):
     def __reduce__(self) -> Any:
         """Results of a directory are pickled as their path, those in memory with their contents."""
         if self.directory is None:
-            return reduced(Results._of, self._recording, dict(self.report), self._summary)
+            return reduced(_in_memory, self._recording, dict(self.report), self._summary, self._accuracy)
         return reduced(Results, os.fspath(self.directory.absolute()))
 
     def __copy__(self) -> Results:
@@ -510,12 +533,13 @@ class Results(Sequence[Snapshot]):
         return xarray.Dataset(variables, coords={"time": times}, attrs={"title": self.name})
 
     def plot(self, *names: str, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
-        """Histories over time, by their names: `results.plot("trolley.speed")`; of a vector its components."""
+        """Histories over time, by their names: `results.plot("trolley.speed")`; of a vector its components. A band shows the
+        errors of a run that was asked for them."""
         from . import plots
 
         of = self.histories
         shown = names or [name for name in of if name.startswith("energy.")]
-        return plots.histories(of["time"], {name: (of[name], of.unit(name)) for name in shown}, ax)
+        return plots.histories(of["time"], {name: (of[name], of.unit(name)) for name in shown}, ax, self._accuracy)
 
     def plot_shape(
         self,
@@ -578,6 +602,12 @@ class Results(Sequence[Snapshot]):
         span = "1 snapshot" if len(times) == 1 else f"{len(times)} snapshots"
         span += f", {times[0]:.6g} to {times[-1]:.6g} s" if len(times) else ""
         return f'<Results of "{self.name}": {span}>'
+
+
+def _in_memory(recording: _core.Recording, report: Mapping[str, Any], summary: str, accuracy: Accuracy | None) -> Results:
+    results = Results._of(recording, report, summary)
+    results._accuracy = accuracy
+    return results
 
 
 class RunError(Error, RuntimeError):

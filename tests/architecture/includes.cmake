@@ -22,7 +22,7 @@ set(solver_floors algebra system steps rest tangents)
 set(fem_floors . material element comparison structure mesh constraints forces model system motion sensitivity)
 set(fem_motion_floors record remesh events rest run)
 set(python_floors .)
-set(pipelines_floors diagnostics case section model results report run route study command verification papers bench)
+set(pipelines_floors diagnostics case section model results accuracy report run route study command verification papers bench)
 
 # Where which header in <> may stand: pairs of what is included and which files may include it.
 set(homes
@@ -35,7 +35,7 @@ set(homes
   "(klu\\.h|Eigen/KLUSupport)"                                                    "solver/algebra/sparse_lu\\.cpp"
   "Spectra/.*"                                                                    "solver/algebra/eigenpairs\\.cpp"
   "pybind11/.*"                                                                   "python/.*"
-  "nlohmann/.*"                                                                   "(cad_import/json/.*\\.cpp|pipelines/(case/.*|command/(inspect|route)\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/(model_digest|run_messages)\\.cpp|route/route_case\\.cpp|results/(checked_json|run_summary)\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h))"
+  "nlohmann/.*"                                                                   "(cad_import/json/.*\\.cpp|pipelines/(accuracy/level_file\\.cpp|case/.*|command/(inspect|route)\\.cpp|model/model_summary\\.cpp|report/report\\.cpp|run/(model_digest|run_messages)\\.cpp|route/route_case\\.cpp|results/(checked_json|run_summary)\\.cpp|study/(rows|study_output|study_report)\\.cpp|study/study_case\\.h))"
   "openturns/.*"                                                                  "pipelines/study/openturns_study\\.h"
   "mpi\\.h"                                                                       "pipelines/study/mpi_engine\\.cpp"
   "iconv\\.h"                                                                       "cad_import/files/code_page\\.cpp"

@@ -248,7 +248,7 @@ bool take_step(Run& run, double step, double rest, bool nothing_leaves) {
   if (taken.status != StepStatus::converged)
     return run.goes_on(Failure{
         .kind = Failure::Kind::step, .time = at.state.t, .places = places_of(at), .step = taken.status});
-  if (!run.options.step) run.step = taken.next_step;
+  if (!run.options.step && !run.options.given_step) run.step = taken.next_step;
   grow_transient(run);
   ++run.report.steps;
   const double step_before = std::exchange(run.last_step, taken.step);

@@ -68,7 +68,9 @@ struct Simulation::Implementation {
       run_.at = MeshedState::drawn(run_.model);
       if (run_.observer.follower) run_.observer.follower->begins(run_.at);
       run_.report.energy_noise = energy_noise(*run_.model);
-      run_.step = run_.options.step.value_or(first_step(*run_.model, run_.options.end_time));
+      run_.step = run_.options.step.value_or(run_.options.given_step
+                                                 ? run_.options.given_step(0).length
+                                                 : first_step(*run_.model, run_.options.end_time));
     }
   }
 
@@ -312,7 +314,7 @@ struct Simulation::Implementation {
     const double kink = next_kink(), end = std::min(output, next_seam());
     const double target = kink <= end + run_.resolution() ? kink : end;
     const double rest = target - time;
-    if (!take_step(run_, rest / std::max(1.0, std::ceil(rest / run_.step - 1e-9)), rest)) return end_early();
+    if (!take_step(run_, next_step(rest), rest)) return end_early();
     if (std::abs(time - target) < run_.resolution()) time = target;
     if (time == kink && !(pass_kink(run_) && release_bodies(run_))) return end_early();
     if (is_over()) run_.integrator->rest();  // no later step needs its matrix
@@ -328,6 +330,14 @@ struct Simulation::Implementation {
     if (run_.observer.progress) run_.observer.progress(run_.last_record);
     if (run_.observer.checkpoint_due && run_.observer.checkpoint_due()) hand_over();
     end_at_end_time();
+  }
+
+  // The length of the next step, where at most `rest` is left of the time to go.
+  double next_step(double rest) {
+    if (!run_.options.given_step) return rest / std::max(1.0, std::ceil(rest / run_.step - 1e-9));
+    const GivenStep given = run_.options.given_step(run_.at.state.t);
+    run_.step = given.length;
+    return std::min(rest, given.end - run_.at.state.t);
   }
 
   // Jumps over a jump of tables or of a force, which no step can resolve: the motion goes on after it.

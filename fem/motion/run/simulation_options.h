@@ -12,6 +12,11 @@
 
 namespace nurbeam {
 
+/// A step of another run, or a part of one.
+struct GivenStep {
+  double end, length;  ///< [s]
+};
+
 /// Settings of a simulation; times in seconds.
 struct SimulationOptions {
   bool statics = false;
@@ -21,6 +26,9 @@ struct SimulationOptions {
   std::vector<double> output_times;  ///< increasing, within [0, end_time]
   IntegratorSettings integrator;
   LengthControl length_control;
+  /// Without fixed steps: the step that is to be under way at a time, in place of the method's own control,
+  /// whose tolerance is then 0. Its end lies after that time. Steps that fail are still divided.
+  std::function<GivenStep(double time)> given_step = nullptr;
 };
 
 /// Observer of a run; functions that are empty are not called.

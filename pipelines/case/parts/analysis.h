@@ -1,7 +1,10 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "fem/motion/remesh/mesh_rules.h"
 #include "fem/motion/run/integrators.h"
@@ -16,6 +19,14 @@ struct CaseModes {
   bool bodies_held = true;
 };
 
+/// What is asked of the errors of mesh and step.
+struct CaseAccuracy {
+  bool is_on = false;
+  std::optional<double> target = {};  ///< part of the scales; empty: no refinement
+  std::vector<std::string> of = {};   ///< names of numbers; empty: the usual ones
+  double limit = 64;                  ///< most work, over that of the plain run
+};
+
 struct CaseAnalysis {
   enum class Type { dynamic, statics, modes, buckling } type = Type::dynamic;
   CaseModes modes;
@@ -26,6 +37,7 @@ struct CaseAnalysis {
   std::optional<double> step;        ///< fixed steps [s]; else those of the integrator's tolerance
   IntegratorSettings integrator;
   LengthControl length_control;
+  CaseAccuracy accuracy;
 
   /// Of the states of a static analysis; empty: one under full loads, in which nothing is read at a factor.
   std::vector<double> factors() const {
@@ -40,5 +52,10 @@ struct CaseAnalysis {
 
 /// The shape of "analysis"; case_analysis.h reads it.
 Shape analysis_shape();
+
+/// What a target of accuracy may be, in parts of the scales.
+inline Range accuracy_target_range() {
+  return {.lower = 1e-6, .upper = 0.5, .reason = "less is round-off, more no longer a measure"};
+}
 
 }  // namespace nurbeam

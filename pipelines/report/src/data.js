@@ -45,12 +45,21 @@ function decoded(text, Type) {
 
 /** One time history; `values` is a Float64Array with one value per frame, decoded at its first use. */
 class Column {
-  constructor(column, values) {
+  constructor(column, values, errors) {
     this.of = column.of;
     this.index = column.index;
     this.name = column.name;
     this.unit = column.unit;
     this.text = values;
+    this.errors_text = errors ?? null;
+  }
+  /** Of mesh and step, one for each frame; undefined where they are not known. */
+  get errors() {
+    if (this.errors_text !== null) {
+      this.decoded_errors = decoded(this.errors_text, Float64Array);
+      this.errors_text = null;
+    }
+    return this.decoded_errors;
   }
   get values() {
     if (this.text !== null) {
@@ -231,7 +240,7 @@ class Shapes {
 /** Reads the page's own data. */
 export function read_data() {
   const data = JSON.parse(document.getElementById('data').textContent);
-  const columns = data.columns.map((column, i) => new Column(column, data.values[i]));
+  const columns = data.columns.map((column, i) => new Column(column, data.values[i], data.errors?.[i]));
   const time = columns.find((column) => column.of === 'run' && column.name === 'time').values;
   const shapes = new Shapes(data.shapes, document.getElementById('shapes').textContent, data.names.beams.length,
     time.length);

@@ -6,7 +6,7 @@ import { start_exaggeration } from './exaggeration.js';
 import { modes_of, modes_table, start_modes } from './modes.js';
 import { Player, speeds } from './player.js';
 import { AlongPlot, Plot, plots_of } from './plots.js';
-import { collector_tables, diagnostics_list, energy_table, events_table, evidence_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
+import { accuracy_line, collector_tables, diagnostics_list, energy_table, events_table, evidence_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
 import { View } from './view.js';
 
 const $ = (id) => document.getElementById(id);
@@ -75,7 +75,7 @@ function set_header() {
     return;
   }
   const done = run.status === 'done';
-  $('status').textContent = done ? 'done' : is_drawing ? 'as drawn' : 'ended early';
+  $('status').textContent = done ? 'done' : is_drawing ? 'as drawn' : run.accuracy ? 'not as right as asked' : 'ended early';
   $('status').classList.toggle('early', !done && !is_drawing);
   $('status').title = run.status;
   const warnings = run.diagnostics.filter(({ severity }) => severity !== 'note').length;
@@ -89,7 +89,10 @@ function set_header() {
 function set_notes() {
   const notes = [];
   if (run && run.status !== 'done' && !is_drawing) {
-    notes.push(`The run ended early: ${run.status}`);
+    notes.push(run.accuracy ? `Not as right as was asked: ${run.status}` : `The run ended early: ${run.status}`);
+  }
+  if (accuracy_line(run)) {
+    notes.push(accuracy_line(run));
   }
   if (data.stored_frames > time.length) {
     notes.push(`This page holds ${time.length} of the ${data.stored_frames} stored frames, evenly chosen; `
@@ -124,6 +127,9 @@ function start_view() {
   $('field').append(...fields.map(({ name }, i) => element('option', { value: i }, name)));
   $('field').value = first_field(fields);
   choose_colours = () => {
+    if (fields.length === 0) {
+      return;  // there are no beams to colour
+    }
     const { name, unit } = fields[$('field').value];
     const of_shape = has_modes && name === 'displacement';  // which is of any amplitude
     const { low, high, stops } = view.set_field(Number($('field').value), has_modes || $('instant').checked);

@@ -90,6 +90,18 @@ function path_of(time, values, x_of, y_of, pixels, steps) {
   return path;
 }
 
+/** The area within the errors of a history, cut off where the plot ends. */
+function band_of(time, values, errors, x_of, y_of) {
+  const edge = (i, sign) => {
+    const y = y_of(values[i] + sign * errors[i]);
+    return `${x_of(time[i]).toFixed(1)} ${Math.min(Math.max(y, top), height - bottom).toFixed(1)}`;
+  };
+  const known = [...time.keys()].filter((i) => !Number.isNaN(values[i]) && !Number.isNaN(errors[i]));
+  const every = Math.max(1, Math.floor(known.length / 1000));
+  const some = known.filter((_, k) => k % every === 0 || k === known.length - 1);
+  return some.length < 2 ? '' : `M${some.map((i) => edge(i, 1)).join('L')}L${some.reverse().map((i) => edge(i, -1)).join('L')}Z`;
+}
+
 /**
  * Axes, their ticks and labels, for a width in pixels; x_of and y_of turn values into pixels, of which x starts at `left`.
  * `unit` is what the labels of y are in, `factor` how much of the SI unit it is.
@@ -202,6 +214,10 @@ export class Plot {
       parts.push(element('svg:line', { class: 'body-mark', x1: x, x2: x, y1: top, y2: height - bottom },
         element('svg:title', {}, text)));
     }
+    for (const { values, style, errors, in_doubt } of this.series.filter((one) => one.errors)) {
+      parts.push(element('svg:path', { class: 'band', style: in_doubt ? null : `fill: ${style.colour}`,
+        d: band_of(time, values, errors, x_of, y_of) }));
+    }
     for (const { values, style } of this.series) {
       parts.push(element('svg:path', { class: 'history', style: `stroke: ${style.colour}`, 'stroke-dasharray': style.dash,
         d: path_of(time, values, x_of, y_of, Math.round(width - left - right), this.steps) }));
@@ -305,10 +321,24 @@ export class AlongPlot {
   }
 }
 
+/** The name of an object of histories. */
+function name_of({ names }, of, index) {
+  return { probe: names.probes, body: names.bodies, beam: names.beams, reaction: names.reactions,
+    connector: names.connectors }[of]?.[index] ?? of;
+}
+
+/** Whether the error of a history is no bound at its end. */
+const is_in_doubt = (run, quantity) => (run?.accuracy?.quantities ?? []).some((one) => one.quantity === quantity && one.not_converged);
+
 /** What there is to plot of a run; nothing is read before it is drawn. */
 export function plots_of(data, at_rest = false) {
   const { names, time } = data;
   const values = (of, index, name) => data.column(of, index, name).values;
+  // With the errors of a history; in doubt where they are no bound.
+  const with_errors = (of, index, name, series) => {
+    const errors = data.column(of, index, name)?.errors;
+    return errors ? { ...series, errors, in_doubt: is_in_doubt(data.run, `${name_of(data, of, index)}.${name}`) } : series;
+  };
   const length_of = (of, index, parts) => {
     const vectors = parts.map((name) => values(of, index, name));
     return Float64Array.from(time, (_, i) => Math.hypot(...vectors.map((v) => v[i])));
@@ -320,14 +350,15 @@ export function plots_of(data, at_rest = false) {
   const parts = ['x', 'y', 'z'].filter((_, k) => k !== across);
   const plots = points.map(({ of, name, index }) => ({
     title: `Position of ${name}`, unit: 'm', id: `${of}-${index}-position`, is_position: true,
-    series: parts.map((part) => ({ name: part, values: values(of, index, part) })),
+    series: parts.map((part) => with_errors(of, index, part, { name: part, values: values(of, index, part) })),
   }));
   if (points.length && !at_rest) {
     plots.push({ title: 'Speed', unit: 'm/s', id: 'speed',
-      series: points.map(({ of, name, index }) => ({ name, values: length_of(of, index, ['vx', 'vy', 'vz']) })) });
+      series: points.map(({ of, name, index }) => (
+        with_errors(of, index, 'speed', { name, values: length_of(of, index, ['vx', 'vy', 'vz']) }))) });
   }
   const of_bodies = (title, unit, id, key) => {
-    const series = names.bodies.map((name, i) => ({ name, values: data.column('body', i, key)?.values }))
+    const series = names.bodies.map((name, i) => with_errors('body', i, key, { name, values: data.column('body', i, key)?.values }))
       .filter(({ values: known }) => known?.some((value) => !Number.isNaN(value)));
     if (series.length) {
       plots.push({ title, unit, id, series });
@@ -337,30 +368,31 @@ export function plots_of(data, at_rest = false) {
   const sliding = names.bodies.map((name, i) => ({ name, i })).filter(({ i }) => values('body', i, 's').some((s) => !Number.isNaN(s)));
   if (sliding.length) {
     plots.push({ title: 'Place on the beam s', unit: 'm', id: 's',
-      series: sliding.map(({ name, i }) => ({ name, values: values('body', i, 's') })) });
+      series: sliding.map(({ name, i }) => with_errors('body', i, 's', { name, values: values('body', i, 's') })) });
     plots.push({ title: 'Joint force', unit: 'N', id: 'joint-force',
-      series: sliding.map(({ name, i }) => ({ name, values: length_of('body', i, ['joint_force.x', 'joint_force.y', 'joint_force.z']) })) });
+      series: sliding.map(({ name, i }) => with_errors('body', i, 'joint_force.x',
+        { name, values: length_of('body', i, ['joint_force.x', 'joint_force.y', 'joint_force.z']) })) });
   }
   of_bodies('Friction', 'N', 'friction', 'friction_force');
   if (names.connectors?.length) {
     plots.push({ title: 'Force of the connectors', unit: 'N', id: 'connector-force',
-      series: names.connectors.map((name, i) => ({ name, values: values('connector', i, 'force') })) });
+      series: names.connectors.map((name, i) => with_errors('connector', i, 'force', { name, values: values('connector', i, 'force') })) });
   }
   // A rigid guide has no length to change and carries nothing.
   const beams = names.beams.map((name, i) => ({ name, i })).filter(({ i }) => !data.run?.model?.beams?.[i]?.rigid);
   if (beams.length) {
     plots.push({ title: 'Length of the beam', unit: 'm', id: 'length',
-      series: beams.map(({ name, i }) => ({ name, values: values('beam', i, 'length') })) });
+      series: beams.map(({ name, i }) => with_errors('beam', i, 'length', { name, values: values('beam', i, 'length') })) });
   }
   if (names.reactions.length) {
     plots.push({ title: 'Reactions', unit: 'N', id: 'reactions',
-      series: names.reactions.map((name, i) => ({ name, values: length_of('reaction', i, ['fx', 'fy', 'fz']) })) });
+      series: names.reactions.map((name, i) => with_errors('reaction', i, 'fx', { name, values: length_of('reaction', i, ['fx', 'fy', 'fz']) })) });
   }
   const along = (title, unit, id, of_beams, of_probes) => {
     const series = beams.flatMap(({ name, i }) => of_beams.map(([key, word]) => (
-      { name: word ? `${name}, ${word}` : name, values: values('beam', i, key) })));
+      with_errors('beam', i, key, { name: word ? `${name}, ${word}` : name, values: values('beam', i, key) }))));
     if (of_probes && beams.length) {
-      series.push(...names.probes.map((name, i) => ({ name, values: values('probe', i, of_probes) })));
+      series.push(...names.probes.map((name, i) => with_errors('probe', i, of_probes, { name, values: values('probe', i, of_probes) })));
     }
     const round_off = Math.max(round_off_of(data.run, unit),
       ...(data.run?.model?.beams ?? []).map((beam) => carried_round_off(beam, unit)));
@@ -382,7 +414,7 @@ export function plots_of(data, at_rest = false) {
   }
   along('Displacement from the drawing', 'm', 'displacement', [['displacement.max', 'largest']], null);
   plots.push({ title: 'Energy', unit: 'J', id: 'energy',
-    series: energy_parts(data).map((name) => ({ name, values: values('energy', 0, name) })) });
+    series: energy_parts(data).map((name) => with_errors('energy', 0, name, { name, values: values('energy', 0, name) })) });
   if (at_rest) {
     return plots;
   }

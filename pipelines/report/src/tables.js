@@ -186,6 +186,21 @@ function layer_note(extreme) {
   return typeof reach === 'number' ? element('span', { class: 'unit' }, ` in a layer of ${readable(reach, 'm', 3)}`) : null;
 }
 
+/** How many of its numbers a run knows how well; nothing of runs that were not asked. */
+export function accuracy_line(run) {
+  const accuracy = run?.accuracy;
+  if (!accuracy) {
+    return null;
+  }
+  const part = accuracy.target ?? 0.02;
+  const numbers = accuracy.quantities.filter(({ value, error }) => value !== 0 || error !== 0);
+  const right = numbers.filter(({ relative, not_converged }) => !not_converged && relative !== null && relative <= part);
+  const parted = accuracy['parted [s]'];
+  return `right to ${number(100 * part, 3)} %: ${right.length} of ${numbers.length} numbers`
+    + (typeof parted === 'number' ? `; from ${number(parted, 3)} s on the runs part, and averages alone may be right` : '')
+    + '. Bands in the plots and ± in the tables are errors of mesh and step; grey ones are no bounds.';
+}
+
 /** The extremes of the run; a button shows their time, or the load factor that has no unit. */
 export function extremes_table(run, time_unit, go_to_time) {
   const all = (run?.extremes ?? []).filter(({ value }) => value !== null && value !== 0);
@@ -199,15 +214,21 @@ export function extremes_table(run, time_unit, go_to_time) {
     return element('p', { class: 'none' }, all.length ? 'The beams carry nothing.' : 'run.json of these results does not name any.');
   }
   const moving = extremes.some((extreme) => extreme['time [s]'] > 0);
+  const with_errors = extremes.some(({ error }) => typeof error === 'number');
+  const in_doubt = new Map((run.accuracy?.quantities ?? []).map((one) => [one.quantity, one.not_converged]));
+  const error_cell = ({ quantity, error, unit }) => element('td', { class: `number whole${in_doubt.get(quantity) ? ' doubtful' : ''}`,
+    title: in_doubt.get(quantity) ?? null }, typeof error === 'number' ? `± ${readable(error, unit, 2)}` : '–');
   const rows = extremes.map((extreme) => element('tr', {},
     element('th', { scope: 'row' }, ...breakable(extreme.quantity), layer_note(extreme)),
     element('td', { class: 'number whole', title: `${extreme.value} ${extreme.unit}` }, readable(extreme.value, extreme.unit, 5)),
+    with_errors ? error_cell(extreme) : null,
     element('td', { class: 'number whole' }, number(extreme['s [m]'], 5)),
     moving ? element('td', { class: 'number whole' }, button_to(extreme['time [s]'], go_to_time)) : null));
   const head = (name, unit) => element('th', { scope: 'col', class: unit ? 'number' : null }, name,
     unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null);
   return element('div', { class: 'card table-card', tabindex: 0, role: 'region', 'aria-label': 'Extremes' },
     element('table', {}, element('thead', {}, element('tr', {}, head('quantity'), element('th', { scope: 'col', class: 'number' }, 'value'),
+      with_errors ? element('th', { scope: 'col', class: 'number' }, 'error') : null,
       head('at s', 'm'), moving ? head(time_unit ? 'at time' : 'at load', time_unit || '–') : null)), element('tbody', {}, ...rows)));
 }
 

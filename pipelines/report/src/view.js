@@ -5,6 +5,7 @@ import {
   PointsMaterial, Quaternion, Scene, SphereGeometry, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { BeamMesh } from './beam_mesh.js';
+import { Boxes, with_room } from './boxes.js';
 import { SectionMesh } from './section_mesh.js';
 import { ViewCamera, steer, view_directions } from './camera.js';
 import { field_colours } from './colours.js';
@@ -55,7 +56,7 @@ export class View {
     const plane_normal = model?.plane_normal ?? flat_direction(data.box);
     this.directions = view_directions(model?.['gravity [m/s^2]'], plane_normal);
     this.planar = Boolean(plane_normal);
-    this.box_points = corners(data.box, data.shapes.origin);
+    this.box_points = corners(with_room(data.box, data), data.shapes.origin);
     this.view = new ViewCamera(this.directions, this.box_points);
     this.uniforms = {
       pixels: { value: new Vector2(1, 1) },
@@ -210,6 +211,9 @@ export class View {
       ...names.probes.map((name, i) => point('probe', name, i))];
     this.paths = new Group();
     this.scene.add(this.paths);
+    this.box_material = new MeshLambertMaterial({ transparent: true, opacity: 0.45, depthWrite: false });
+    this.boxes = new Boxes(this.data, this.box_material, this.path_material);
+    this.scene.add(this.boxes.object);
   }
 
   /** What exaggerated displacements add to the position of a body in a frame: to that of the beam that carries it. */
@@ -310,6 +314,7 @@ export class View {
     this.grid_material.color = colour('--scene-grid');
     this.support_material.color = colour('--scene-support');
     this.body_material.color = colour('--scene-body');
+    this.box_material.color = colour('--scene-body');
     this.probe_material.color = colour('--scene-probe');
     this.path_material.color = colour('--scene-path');
     this.loads.material.color = colour('--scene-load');
@@ -391,6 +396,7 @@ export class View {
         symbol.position.copy(this.placed(place.r));
       }
     }
+    this.boxes.show(frame, (place) => this.placed(place));
     this.loads.show(frame);
     this.connectors.show(frame);
     if (this.nodes.visible) {
