@@ -27,14 +27,16 @@ namespace nurbeam {
 
 /// The kinds of constraints in either dimension, and `Others` besides.
 template <int D, class... Others>
-using ConstraintList = std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirection<D>, HeldPlace<D>,
-                                    BodyOnPoint<D>, BodyOnGuide<D>, BodyOnNode<D>, KeptContact<D>,
-                                    JoinedPoints<D>, JoinedSlopes<D>, CornerAngle<D>, KeptLength<D>,
-                                    HeldPositionOfBody<D>, BodyOnBody<D>, HeldSlope<D>, Others...>;
+using ConstraintList =
+    std::variant<HeldPosition<D>, GuidedPlace<D>, HeldDirection<D>, HeldPlace<D>, BodyOnPoint<D>,
+                 BodyOnGuide<D>, BodyOnNode<D>, KeptContact<D>, JoinedPoints<D>, JoinedSlopes<D>,
+                 CornerAngle<D>, KeptLength<D>, HeldPositionOfBody<D>, BodyOnBody<D>, HeldSlope<D>,
+                 TurnedGuide<D>, Turned<D, ClampedDirection<D>>, Others...>;
 template <int D>
 using BoundConstraint = std::conditional_t<
     D == 3,
     ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll,
+                   Turned<3, ClampedSection>, Turned<3, TurnedFork>, Turned<3, TurnedHinge>,
                    BodyOnSection<FollowedNode>, BodyOnSection<FollowedPoint>, UnitAttitude, PointOnBody,
                    AxesOnSection<GuideSection, 2>, AxesOnSection<GuideSection, 3>,
                    AxesOnSection<FollowedNode, 2>, AxesOnSection<FollowedNode, 3>,

@@ -13,7 +13,9 @@ namespace nurbeam {
 /// function in brackets.
 struct ConstraintOffers {
   bool linear = false;  ///< the constraint has no Hessian
-  bool rates = false;   ///< (rate(t), acceleration(t)) dg/dt and d2g/dt2 at fixed q
+  /// (rate(t), acceleration(t)) dg/dt and d2g/dt2 at fixed q; or, where they depend on the state, (rate(at,
+  /// state), acceleration(at, state)) dg/dt and d2g/dt2 + 2 d2g/dt dq v at fixed q and v
+  bool rates = false;
   bool constant =
       false;  ///< (is_constant()) whether the gradient is equal in all states; linear ones need not say
   bool curvature = false;  ///< (curvature(at, state, v)) v . d2g/dq2 v, cheaper than by the Hessian
@@ -23,7 +25,8 @@ struct ConstraintOffers {
   bool couple = false;   ///< (couple(at, state, y)) couple on the beam, in place of a force
   bool action = false;   ///< (action(at, state, y)) force and couple on a point of a beam, if there is one
   bool on_body = false;  ///< (on_body(body, state, y)) force on a body [N]
-  bool work = false;     ///< (work(from, to, y_from, y_to)) work between two states on one mesh [J]
+  /// (work(from, to, y_from, y_to), or work(at, from, ...)) work between two states on one mesh [J]
+  bool work = false;
   bool body = false;  ///< (body()) first coordinate of a body that follows the constraint's other coordinates
   bool place = false;      ///< (place()) coordinate of the place that the constraint holds
   bool stop = false;       ///< (closed_stop()) number of the stop that the constraint keeps closed
@@ -53,8 +56,10 @@ consteval bool keeps_constraint_offers() {
   using Y = typename ConstraintTerms<D>::Multipliers;
   using Rows = Eigen::VectorXd;
   constexpr ConstraintOffers o = C::offers;
-  constexpr bool has_rate = requires(const C& c) { c.rate(0.0); };
-  constexpr bool has_acceleration = requires(const C& c) { c.acceleration(0.0); };
+  constexpr bool has_rate = requires(const C& c) { c.rate(0.0); }
+  || requires(const C& c, const MeshedBeams<D>& at, const State& x) { c.rate(at, x); };
+  constexpr bool has_acceleration = requires(const C& c) { c.acceleration(0.0); }
+  || requires(const C& c, const MeshedBeams<D>& at, const State& x) { c.acceleration(at, x); };
   constexpr bool has_curvature = requires(const C& c, const MeshedBeams<D>& at, const State& x,
                                           const Eigen::Matrix<double, ConstraintTerms<D>::size, 1>& v) {
     c.curvature(at, x, v);
@@ -70,6 +75,9 @@ consteval bool keeps_constraint_offers() {
   constexpr bool has_on_body = requires(const C& c, const State& x, const Rows& y) { c.on_body(0, x, y); };
   constexpr bool has_work = requires(const C& c, const State& x, const Rows& y) {
     double(c.work(x, x, y, y));
+  }
+  || requires(const C& c, const MeshedBeams<D>& at, const State& x, const Rows& y) {
+    double(c.work(at, x, x, y, y));
   };
   constexpr bool has_connector = requires(const C& c, const State& x, const Rows& y) {
     int(c.connector());
@@ -92,6 +100,22 @@ consteval bool keeps_constraint_offers() {
          keeps_word(
              o.stop, names_closed_stop<C>, requires(const C& c) { int(c.closed_stop()); }) &&
          keeps_word(o.connector, names_connector<C>, has_connector);
+}
+
+/// dg/dt at fixed q, and d2g/dt2 + 2 d2g/dt dq v, of a constraint that offers rates.
+template <int D, class C>
+auto rate_of(const C& c, const MeshedBeams<D>& at, const State& state) {
+  if constexpr (requires { c.rate(at, state); })
+    return c.rate(at, state);
+  else
+    return c.rate(state.t);
+}
+template <int D, class C>
+auto acceleration_of(const C& c, const MeshedBeams<D>& at, const State& state) {
+  if constexpr (requires { c.acceleration(at, state); })
+    return c.acceleration(at, state);
+  else
+    return c.acceleration(state.t);
 }
 
 }  // namespace nurbeam

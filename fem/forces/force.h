@@ -17,6 +17,7 @@
 #include "fem/forces/point_mass.h"
 #include "fem/forces/rigid_inertia.h"
 #include "fem/forces/roll_inertia.h"
+#include "fem/forces/rotational_spring.h"
 #include "fem/forces/sliding_friction.h"
 #include "fem/forces/spring.h"
 #include "fem/forces/stored_rope.h"
@@ -35,10 +36,10 @@ using Force = std::variant<PointLoad, Moment, LineLoad, LineTorque, PlaceMass, C
 
 /// The kinds of forces in either dimension, and `Others` besides.
 template <int D, class... Others>
-using ForceList =
-    std::variant<PointMass<D>, BoundPlaceMass<D>, Spring<D>, BodyDrag<D>, BufferForce<D>, SlidingFriction<D>,
-                 PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, FlowForce<D>, PointLoad,
-                 Moment, LineLoad, LineTorque, BoundCustomForce<D>, BoundBodyLoad<D>, Others...>;
+using ForceList = std::variant<PointMass<D>, BoundPlaceMass<D>, Spring<D>, BodyDrag<D>, BufferForce<D>,
+                               SlidingFriction<D>, PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>,
+                               FieldOnBody<D>, FlowForce<D>, PointLoad, Moment, LineLoad, LineTorque,
+                               BoundCustomForce<D>, RotationalSpring<D>, BoundBodyLoad<D>, Others...>;
 template <int D>
 using BoundForce = std::conditional_t<
     D == 3, ForceList<D, RollInertia<FollowedNode>, RollInertia<FollowedPoint>, FreeRoll, RigidInertia>,
@@ -56,9 +57,9 @@ static_assert(all_keep_offers<3>(static_cast<BoundForce<3>*>(nullptr)),
 /// Sources of forces: the parts of a structure that bring forces by themselves, in the order in which these
 /// are added up, before those of descriptions. Each source offers bind(binding, add).
 template <int D>
-using ForceSources =
-    TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>, Spring<D>,
-             PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>, FlowForce<D>, RigidInertia>;
+using ForceSources = TypeList<PointMass<D>, BodyDrag<D>, BodyRolls<D>, SlidingFriction<D>, BufferForce<D>,
+                              Spring<D>, PlaceDrive<D>, StoredRope<D>, FieldOnBeams<D>, FieldOnBody<D>,
+                              FlowForce<D>, RigidInertia, RotationalSpring<D>>;
 
 /// A description in a mesh: itself, or its Bound<D>.
 template <int D, class Description>

@@ -36,6 +36,8 @@ struct ForceOffers {
   bool friction = false;  ///< (friction(at, state)) friction of the body of a rider()
   bool connector =
       false;  ///< (connector()) its number, with length_and_force(at, state), and carries_one_sign(at)
+  /// (rotational_connector()) its number, with angle_and_moment(at, state), and admissible(state)
+  bool rotational = false;
   bool depends_on_multipliers = false;
   bool has_constant_inertia = false;  ///< constant inertia, and no force that depends on velocities
   bool is_body = false;               ///< inertia and weight of a body, and nothing else
@@ -57,6 +59,7 @@ NURBEAM_HOOK(add_actions);
 NURBEAM_HOOK(on_element);
 NURBEAM_HOOK(is_damper);
 NURBEAM_HOOK(friction);
+NURBEAM_HOOK(rotational_connector);
 
 /// A sink that takes the matrices of tangents.
 struct AnySink {
@@ -142,6 +145,11 @@ consteval bool keeps_offers() {
     f.length_and_force(at, x);
     bool(f.carries_one_sign(at));
   };
+  constexpr bool has_rotational = requires(const F& f, const MeshedBeams<D>& at, const State& x) {
+    int(f.rotational_connector());
+    f.angle_and_moment(at, x);
+    bool(f.admissible(x));
+  };
   return keeps_word(o.force, names_add_force<F>, has_force) &&
          keeps_word(o.force, names_add_tangent<F>, has_tangent) &&
          keeps_word(o.energy, names_add_energy<F>, has_energy) &&
@@ -156,6 +164,7 @@ consteval bool keeps_offers() {
          keeps_word(o.roll, names_spin<F>, has_roll) && keeps_word(o.roll, names_add_momentum<F>, has_roll) &&
          keeps_word(o.damper, names_is_damper<F>, has_damper) &&
          keeps_word(o.friction, names_friction<F>, has_friction) &&
+         keeps_word(o.rotational, names_rotational_connector<F>, has_rotational) &&
          keeps_word(o.connector, names_connector<F>, has_connector);
 }
 

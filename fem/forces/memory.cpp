@@ -15,6 +15,9 @@ std::vector<std::string> what_remembers(const Structure& structure) {
                                  : "the stop between " + body(stop.rider) + " and " + body(stop.other));
   for (const Connector& connector : structure.connectors)
     if (connector.jumps()) all.push_back("the damping of connector \"" + connector.name + "\"");
+  for (const RotationalConnector& connector : structure.rotational_connectors)
+    if (connector.counts(structure.dimension))
+      all.push_back("the angle of connector \"" + connector.name + "\"");
   return all;
 }
 

@@ -8,7 +8,8 @@
 #include "fem/structure/structure.h"
 
 /// State::memory in the order of MemoryPlaces. A rider with friction has its FrictionMemory, a stop the
-/// BufferContact of its body, and a connector that jumps has 1 where it is taut.
+/// BufferContact of its body, a connector that jumps has 1 where it is taut, and a rotational connector its
+/// angle [rad].
 namespace nurbeam {
 
 /// Names of all parts with a memory: the friction of "trolley" on beam "cable", ...

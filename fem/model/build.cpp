@@ -22,6 +22,7 @@ void for_each_kept_place(const BeamModel& model, Visit&& visit) {
   for (const Constraint& constraint : model.constraints) std::visit(ask, constraint);
   for (const Force& force : model.forces) std::visit(ask, force);
   std::for_each(model.connectors.begin(), model.connectors.end(), ask);
+  std::for_each(model.rotational_connectors.begin(), model.rotational_connectors.end(), ask);
 }
 
 std::vector<HomeNode> divided(const BeamModel& model, int b, const Division& division) {

@@ -31,6 +31,7 @@ struct HomeNode {
   NodeKind kind =
       NodeKind::smooth;  ///< only a smooth node is ever removed; no body slides over a hinge or a corner
   Hold hold = Hold::nothing;
+  bool turns = false;   ///< what holds it turns
   bool joined = false;  ///< another beam is joined here
   bool kept = false;    ///< a mass or a connector is here: the node never gives way
   /// A smooth node where bending yet reaches less far than an element, so that the elements beside it do not

@@ -43,8 +43,33 @@ struct AtRing {
   Quantity quantity;
 };
 
-/// What is measured of a model: shapes along its gravity, and beams at rings.
-using Measure = std::variant<PartSag, Clearance, AtRing>;
+/// What a part of the model that turns does: a support, or a rotational connector.
+struct OfTurn {
+  enum class Quantity {
+    angle,         ///< since the drawing [rad]
+    spin,          ///< of a support [rad/s]
+    drive_moment,  ///< about the axis, by which a support is turned on [N m]
+    moment         ///< by which a connector turns its ends back together [N m]
+  };
+  std::string name;  ///< heads its column
+  bool of_support;   ///< else of a rotational connector
+  int part;          ///< number among the constraints of the model, or among its rotational connectors
+  Quantity quantity;
+};
+
+/// Name and unit of a quantity.
+struct TurnQuantity {
+  OfTurn::Quantity quantity;
+  const char* name;
+  const char* unit;
+};
+inline constexpr TurnQuantity turn_quantities[] = {{OfTurn::Quantity::angle, "angle", "rad"},
+                                                   {OfTurn::Quantity::spin, "spin", "rad/s"},
+                                                   {OfTurn::Quantity::drive_moment, "drive_moment", "N m"},
+                                                   {OfTurn::Quantity::moment, "moment", "N m"}};
+
+/// What is measured of a model: shapes along its gravity, beams at rings, and parts that turn.
+using Measure = std::variant<PartSag, Clearance, AtRing, OfTurn>;
 
 /// Whether a quantity is of a reel, else of an eyelet.
 constexpr bool of_reel(AtRing::Quantity quantity) { return quantity >= AtRing::Quantity::axial_force; }

@@ -14,6 +14,8 @@ MemoryPlaces::MemoryPlaces(const Structure& structure) {
   for (std::size_t i = 0; i < structure.stops.size(); ++i) stops.push_back(take(1));
   for (const Connector& connector : structure.connectors)
     connectors.push_back(take(connector.jumps() ? 1 : 0));
+  for (const RotationalConnector& connector : structure.rotational_connectors)
+    angles.push_back(take(connector.counts(structure.dimension) ? 1 : 0));
 }
 
 }  // namespace nurbeam

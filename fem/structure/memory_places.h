@@ -6,9 +6,10 @@ namespace nurbeam {
 struct Structure;
 
 /// First index in State::memory of each part that remembers: three numbers for a rider with friction, one for
-/// a stop, one for a connector that jumps; -1 for parts without memory.
+/// a stop, one for a connector that jumps, one for a rotational connector that counts its angle; -1 for parts
+/// without memory.
 struct MemoryPlaces {
-  std::vector<int> riders, stops, connectors;
+  std::vector<int> riders, stops, connectors, angles;
   int size = 0;
 
   MemoryPlaces() = default;

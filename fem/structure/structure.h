@@ -12,6 +12,7 @@
 #include "fem/structure/place_motion.h"
 #include "fem/structure/reel.h"
 #include "fem/structure/rigid_body.h"
+#include "fem/structure/rotational_connector.h"
 #include "fem/structure/stop.h"
 #include "fem/time_table.h"
 
@@ -82,7 +83,7 @@ struct Rider {
   bool stands_apart() const { return is_offset() || friction.has_value(); }
 };
 
-/// All that has coordinates: beams, bodies, riders, connectors and stops.
+/// All that has coordinates: beams, bodies, riders, connectors of both kinds and stops.
 struct Structure {
   int dimension = 3;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s^2]
@@ -94,6 +95,7 @@ struct Structure {
   std::vector<Rider> riders;
   std::vector<Connector> connectors;
   std::vector<Stop> stops;
+  std::vector<RotationalConnector> rotational_connectors;
 
   const Beam& beam_of(const Rider& rider) const { return beams[rider.beam]; }
   const Body& body_of(const Rider& rider) const { return bodies[rider.body]; }

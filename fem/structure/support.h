@@ -7,6 +7,7 @@
 #include "fem/structure/displacement_table.h"
 #include "fem/structure/grip.h"
 #include "fem/structure/home_nodes.h"
+#include "fem/structure/turn.h"
 
 namespace nurbeam {
 
@@ -27,8 +28,11 @@ struct Support {
   /// The axis of a hinge: the position is held, and the section of a beam with torsion turns about this axis
   /// alone.
   std::optional<Eigen::Vector3d> axis = {};
-  /// The direction along which the place is free; it is held across this direction alone.
+  /// The direction along which the place is free; it is held across this direction alone. What else the
+  /// support holds, it holds besides.
   std::optional<Eigen::Vector3d> guide = {};
+  /// Turns all that the support holds about an axis; State::load scales the angle. The displacement adds.
+  std::optional<AxisTurn> turn = {};
 
   bool holds_slope() const { return clamped && !sharp; }
 
@@ -39,7 +43,10 @@ struct Support {
   template <class Visit>
   void for_each_node(Visit&& visit) const {
     const Hold by = holds_slope() ? Hold::clamp : Hold::position;
-    visit(beam, s, [by](HomeNode& node) { node.hold = std::max(node.hold, by); });
+    visit(beam, s, [by, turns = turn.has_value()](HomeNode& node) {
+      node.hold = std::max(node.hold, by);
+      node.turns = node.turns || turns;
+    });
   }
 };
 

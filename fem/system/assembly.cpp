@@ -384,13 +384,14 @@ bool Assembly<D>::has_constant_constraints() const {
 
 template <int D>
 void Assembly<D>::turning_speeds(const State& state, Eigen::Ref<Eigen::VectorXd> speeds) const {
+  const MeshedBeams<D> at = beams();
   speeds.setZero();
   for (const int i : turning_) {
     add_constraint_product(i, state, state.v, speeds);
     std::visit(
         [&](const auto& c) {
           if constexpr (offers_of<decltype(c)>.rates)
-            speeds.segment(constraint_blocks_[i].row, c.rows) += c.rate(state.t);
+            speeds.segment(constraint_blocks_[i].row, c.rows) += rate_of<D>(c, at, state);
         },
         constraints_[i]);
   }
@@ -398,12 +399,13 @@ void Assembly<D>::turning_speeds(const State& state, Eigen::Ref<Eigen::VectorXd>
 
 template <int D>
 Eigen::VectorXd Assembly<D>::constraint_rate(const State& state) const {
+  const MeshedBeams<D> at = beams();
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(constraint_count_);
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     std::visit(
         [&](const auto& c) {
           if constexpr (offers_of<decltype(c)>.rates)
-            rate.segment(constraint_blocks_[i].row, c.rows) = c.rate(state.t);
+            rate.segment(constraint_blocks_[i].row, c.rows) = rate_of<D>(c, at, state);
         },
         constraints_[i]);
   return rate;
@@ -448,7 +450,7 @@ Eigen::VectorXd Assembly<D>::constraint_curvature(const State& state) const {
         }
     }
     if constexpr (offers_of<decltype(c)>.rates)
-      curvature.segment(block.row, c.rows) += c.acceleration(state.t);
+      curvature.segment(block.row, c.rows) += acceleration_of<D>(c, at, state);
   };
   for (std::size_t i = 0; i < constraints_.size(); ++i)
     std::visit([&](const auto& c) { add(constraint_blocks_[i], c); }, constraints_[i]);
@@ -466,9 +468,13 @@ double Assembly<D>::step_limit(const State& state) const {
     if (closing > 0)
       limit = std::min(limit, largest_slide * (span.end(state.q) - span.start(state.q)) / closing);
   }
-  constexpr double largest_turn = 0.6;  // of a rigid body in a step [rad]; its spin is 2 |dp/dt|
+  constexpr double largest_turn = 0.6;  // of a support or a rigid body in a step [rad]
+  for (const Constraint& constraint : model_->constraints)
+    if (const AxisTurn* turn = turn_of(constraint))
+      if (const double rate = std::abs(turn->angle.at(state.t).rate); rate > 0)
+        limit = std::min(limit, largest_turn / rate);
   for (const int p : mesh_.attitudes)
-    if (p >= 0)
+    if (p >= 0)  // its spin is 2 |dp/dt|
       if (const double rate = 2 * state.v.segment<4>(p).norm(); rate > 0)
         limit = std::min(limit, largest_turn / rate);
   return limit;
@@ -483,6 +489,12 @@ bool Assembly<D>::admissible(const State& state) const {
   if constexpr (D == 3)
     for (const MeshElement<D>& e : elements_)
       if (e.twist && !e.twist->element.admissible(gather_twist(e, state.q))) return false;
+  const auto is_possible = [&](const auto& f) {
+    if constexpr (offers_of<decltype(f)>.rotational) return f.admissible(state);
+    return true;
+  };
+  for (const BoundForce<D>& force : forces_)
+    if (!std::visit(is_possible, force)) return false;
   return std::all_of(moving_spans_.begin(), moving_spans_.end(), [&](int moving) {
     const MeshSpan& span = mesh_.spans[moving];
     return span.end(state.q) - span.start(state.q) > shortest * (span.s_b - span.s_a);

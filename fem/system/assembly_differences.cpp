@@ -36,15 +36,8 @@ std::vector<bool> Assembly<D>::elements_unlike(const Assembly& other, const std:
 template <int D>
 bool Assembly<D>::differs_in_elements(const Assembly& other, const State& own, const State& of_other) const {
   const auto is_still = [](const BeamModel& model) {
-    const auto moves = [](const auto& each) {
-      if constexpr (
-          requires { each.motion.has_value(); })
-        return each.motion.has_value();
-      return false;
-    };
-    return std::none_of(
-               model.constraints.begin(), model.constraints.end(),
-               [&](const auto& each) { return std::visit(moves, each); }) &&
+    const auto moves = [](const Rider& rider) { return rider.motion.has_value(); };
+    return std::none_of(model.constraints.begin(), model.constraints.end(), is_moved) &&
            std::none_of(model.riders.begin(), model.riders.end(), moves);
   };
   const auto are_of_bodies = [](const std::vector<BoundForce<D>>& forces) {

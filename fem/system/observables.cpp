@@ -51,7 +51,10 @@ double motion_work_of(const Assembly<D>& a, const State& from, const State& to) 
   double sum = 0;
   a.for_each_constraint([&](const auto& c, const auto& rows) {
     const auto y = [&](const State& state) { return state.lambda.segment(rows.first, rows.count); };
-    if constexpr (offers_of<decltype(c)>.work) sum += c.work(from, to, y(from), y(to));
+    if constexpr (requires { c.work(a.beams(), from, to, y(from), y(to)); })
+      sum += c.work(a.beams(), from, to, y(from), y(to));
+    else if constexpr (offers_of<decltype(c)>.work)
+      sum += c.work(from, to, y(from), y(to));
   });
   return sum;
 }
@@ -173,6 +176,20 @@ std::pair<double, double> length_and_force(const BeamSystem& system, const State
         if constexpr (offers_of<decltype(c)>.connector)
           found = c.length_and_force(state, state.lambda.segment(rows.first, rows.count));
       });
+  });
+  return found;
+}
+
+std::pair<double, double> angle_and_moment(const BeamSystem& system, const State& state, int connector) {
+  std::pair<double, double> found;
+  with_assembly(system, [&](const auto& a) {
+    for (const auto& force : a.forces())
+      std::visit(
+          [&](const auto& f) {
+            if constexpr (offers_of<decltype(f)>.rotational)
+              if (f.rotational_connector() == connector) found = f.angle_and_moment(a.beams(), state);
+          },
+          force);
   });
   return found;
 }

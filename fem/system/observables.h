@@ -56,6 +56,8 @@ double contact_force(const BeamSystem& system, const State& state, int stop);
 std::optional<FrictionForce> sliding_friction(const BeamSystem& system, const State& state, int rider);
 /// Length of a connector [m], or its part along its direction, and its pull [N].
 std::pair<double, double> length_and_force(const BeamSystem& system, const State& state, int connector);
+/// Angle of a rotational connector [rad], and the moment by which it turns its ends back together [N m].
+std::pair<double, double> angle_and_moment(const BeamSystem& system, const State& state, int connector);
 /// The row of the multiplier of a rod; empty for other connectors.
 std::optional<int> row_of_rod(const BeamSystem& system, int connector);
 /// Position of a grip [m]. Throws std::invalid_argument where the mesh has no node there; the message begins

@@ -182,7 +182,7 @@ bool has_tables(const CaseFile& read) {
   }) || any(read.loads, [](const CaseLoad& load) {
     return !load.time.empty() || load.moving_speed;
   }) || any(read.supports, [](const CaseSupport& s) {
-    return !s.motion.empty() || s.motion_law;
+    return !s.motion.empty() || s.motion_law || s.rotation;
   }) || any(read.sliding_joints, [](const CaseSlidingJoint& joint) {
     return joint.motion.is_given() || joint.motion_law ||
            (joint.friction && joint.friction->force.size() > 1);

@@ -205,10 +205,23 @@ class Checker {
       }
     }
     check_presence(shape, value, path);
-    for (const Key& key : shape.keys)
-      if (value.contains(key.name) && !check(key.shape, value[key.name], child(path, key.name)))
-        value[key.name] = nullptr;
+    for (const Key& key : shape.keys) {
+      if (!value.contains(key.name)) continue;
+      Json& item = value[key.name];
+      const std::string at = child(path, key.name);
+      if (!(has_other_unit(value, key) ? check(in_other_unit(key), item, at) : check(key.shape, item, at)))
+        item = nullptr;
+    }
     return true;
+  }
+
+  static bool has_other_unit(const Json& object, const Key& key) {
+    const std::optional<Key::OtherUnit>& other = key.other_unit;
+    return other && object[key.name].is_string() && object.value(other->key, Json()) == other->value;
+  }
+  static Shape in_other_unit(const Key& key) {
+    const Shape& usual = key.shape.kind == Kind::either ? key.shape.items[0] : key.shape;
+    return {.kind = Kind::quantity, .keys = {}, .dimension = key.other_unit->dimension, .range = usual.range};
   }
 
   void check_presence(const Shape& shape, const Json& value, const std::string& path) {

@@ -39,6 +39,31 @@ void check_stiffness(const Json& json, const std::string& path, const CaseConnec
 
 }  // namespace
 
+namespace {
+
+// What one kind of connector has and the others have not.
+void check_keys_of_kind(const Json& json, const std::string& path, const CaseConnector& connector,
+                        Findings& findings) {
+  const auto refuse = [&](std::initializer_list<const char*> keys, const std::string& why) {
+    for (const char* key : keys)
+      if (json.contains(key)) findings.error(child(path, key), why);
+  };
+  if (!connector.rotational)
+    return refuse({"axis", "angle", "moment"},
+                  "is of the type \"rotational\"; give that, or leave it out" +
+                      std::string(json.contains("axis") ? " (a spring acts along a \"direction\")" : ""));
+  refuse({"length", "force", "direction", "end_masses"},
+         "is of connectors along a line, and this one is \"rotational\": it has \"axis\", \"angle\" and "
+         "\"moment\"; leave it out");
+  if (connector.rows)
+    findings.error(child(path, "stiffness"),
+                   "has rows, but the type \"rotational\" has one number in N m/rad");
+  if (connector.axis && connector.axis->norm() == 0)
+    findings.error(child(path, "axis"), "is [0, 0, 0]; give the direction of the axis");
+}
+
+}  // namespace
+
 CaseConnector read_connector(const Json& json, const std::string& path, Findings& findings) {
   CaseConnector connector;
   connector.path = path;
@@ -50,7 +75,8 @@ CaseConnector read_connector(const Json& json, const std::string& path, Findings
   }
   if (connector.direction && connector.direction->norm() == 0)
     findings.error(child(path, "direction"), "is [0, 0, 0]; give the direction along which it acts");
-  check_stiffness(json, path, connector, findings);
+  check_keys_of_kind(json, path, connector, findings);
+  if (!connector.rotational || !json.contains("stiffness")) check_stiffness(json, path, connector, findings);
   return connector;
 }
 
@@ -58,6 +84,12 @@ namespace {
 
 void check_ends(const CaseConnector& connector, Findings& findings) {
   const auto& [from, to] = connector.ends;
+  for (const CaseConnectorEnd& end : connector.ends)
+    if (connector.rotational && !end.body.empty())
+      findings.error(end.path,
+                     "is the body " + in_quotes(end.body) +
+                         ", a point, which does not turn; a rotational connector takes hold of a \"beam\" at "
+                         "a place, or of space, as a \"point\"");
   if (from.point && to.point)
     findings.error(connector.path,
                    "joins two points, which both stay where they are; give a \"beam\" or a "

@@ -46,15 +46,41 @@ CaseLoad read_load(const Json& json, const std::string& path, Findings& findings
   return read_item(load_fields(), json, path, findings);
 }
 
+// What turns must hold something that turns.
+void check_rotation(const CaseSupport& support, Findings& findings) {
+  const CaseRotation& rotation = *support.rotation;
+  if (rotation.axis.norm() == 0)
+    findings.error(child(rotation.path, "axis"), "is [0, 0, 0]; give the direction of the axis");
+  if (support.type == CaseSupport::Type::guided)
+    findings.error(rotation.path,
+                   "is of \"clamped\", \"fork\" and \"pinned\" supports; a \"clamped\" or \"fork\" with a "
+                   "\"direction\" slides and turns");
+  if (support.type == CaseSupport::Type::pinned && !support.axis && !rotation.about)
+    findings.error(
+        rotation.path,
+        "turns nothing: \"pinned\" holds a place alone; give a point \"about\" which it goes round, "
+        "an \"axis\" of the hinge, or use \"clamped\" or \"fork\"");
+  const Eigen::Vector3d u = rotation.axis.stableNormalized();
+  if (support.direction && support.force != 0 && support.direction->stableNormalized().cross(u).norm() > 1e-9)
+    findings.error(child(support.path, "force"),
+                   "pulls along \"direction\", which turns with the support; let the rotation's \"axis\" be "
+                   "along it, or leave the force out");
+}
+
 CaseSupport read_support(const Json& json, const std::string& path, Findings& findings) {
   if (!json.contains("at")) findings.error(path, "\"at\" is missing (where)");
   CaseSupport support = read_item(support_fields(), json, path, findings);
   check_axis(support.axis, json, path, "pinned", findings);
+  if (support.rotation) check_rotation(support, findings);
   const bool guided = support.type == CaseSupport::Type::guided;
   if (guided && !json.contains("direction"))
     findings.error(path, "\"guided\" needs the \"direction\" along which the support is free");
   if (!support.direction) return support;
-  if (!guided) findings.error(child(path, "direction"), "is for the type \"guided\" only");
+  if (support.type == CaseSupport::Type::pinned)
+    findings.error(
+        child(path, "direction"),
+        "is of supports that slide, and \"pinned\" holds its place; use \"guided\", or a \"clamped\" "
+        "or \"fork\" that slides");
   if (support.direction->norm() == 0)
     findings.error(child(path, "direction"),
                    "is [0, 0, 0]; give the direction along which the support is free");

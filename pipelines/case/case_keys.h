@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,12 @@ struct Key {
   std::string description;
   bool required = false;
   std::string needs = {};  ///< a key that must stand beside this one; "" for none
+  /// The unit of its texts where another key of the object has this value.
+  struct OtherUnit {
+    std::string key, value;
+    Dimension dimension;
+  };
+  std::optional<OtherUnit> other_unit = {};
 };
 
 /// The case file.

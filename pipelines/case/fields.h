@@ -63,6 +63,11 @@ struct Field {
     key.needs = other;
     return std::move(*this);
   }
+  /// A key whose texts have another unit where the key `of` has this value.
+  Field measured_where(const char* of, const char* value, Dimension dimension) && {
+    key.other_unit = Key::OtherUnit{of, value, dimension};
+    return std::move(*this);
+  }
   Field needed() && {
     key.required = true;
     return std::move(*this);

@@ -133,6 +133,12 @@ DimensionInfo info(Dimension dimension) {
       return {"stiffness", "N/m", {0, 1, -2}, "N/m, kN/m, N/mm, MN/m, lbf/in"};
     case Dimension::damping:
       return {"damping", "N s/m", {0, 1, -1}, "N s/m, kN s/m, N s/mm, lbf s/in"};
+    case Dimension::rotational_stiffness:
+      return {
+          "rotational stiffness", "N m/rad", {2, 1, -2}, "N m/rad, kN m/rad, N mm/rad, N m/deg, lbf in/rad"};
+    case Dimension::rotational_damping:
+      return {
+          "rotational damping", "N m s/rad", {2, 1, -1}, "N m s/rad, N mm s/rad, N m s/deg, lbf in s/rad"};
     case Dimension::drag:
       return {"force over speed squared", "N s^2/m^2", {-1, 1, 0}, "N s^2/m^2, kN s^2/m^2, kg/m"};
     case Dimension::angle:

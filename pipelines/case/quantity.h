@@ -28,6 +28,8 @@ enum class Dimension {
   rate,
   stiffness,
   damping,
+  rotational_stiffness,
+  rotational_damping,
   drag,
   angle,
   part

@@ -74,7 +74,7 @@ CaseBodyJoint read_body_support(const Json& json, const std::string& path, Findi
                    "is \"fork\", which is for beams with torsion; of a body use \"pinned\", with "
                    "an \"axis\" as a pin, \"clamped\" or \"guided\"");
   if (joint.type == Type::line) need_axis(joint, "guided", "direction", findings);
-  for (const char* key : {"force", "mass", "slope", "interpolation"})
+  for (const char* key : {"force", "mass", "slope", "interpolation", "rotation"})
     if (has(json, key)) findings.error(child(path, key), "is of the support of a beam; leave it out");
   if (has(json, "motion")) take(json["motion"], joint.motion);
   return joint;

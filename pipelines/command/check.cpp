@@ -156,6 +156,10 @@ void print_connectors(std::ostream& out, const BeamModel& model) {
       out << ", length " << text_of(connector.length, place_digits) << " m";
     out << '\n';
   }
+  for (const RotationalConnector& connector : model.rotational_connectors)
+    out << "connector " << connector.name << ": " << end_text(connector.ends[0]) << " to "
+        << end_text(connector.ends[1]) << ", " << text_of(connector.stiffness, size_digits) << " N m/rad"
+        << (connector.counts(model.dimension) ? "" : " against any turn") << '\n';
 }
 
 // Where elements cannot even have the drawn shape without stretching.

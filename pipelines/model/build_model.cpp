@@ -69,6 +69,7 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   for (const CaseSupport& support : resolved.supports) {
     for (const auto& [time, displacement] : support.motion) forces.push_back(displacement);
     if (support.direction) forces.push_back(*support.direction);
+    if (support.rotation) moments.push_back(support.rotation->axis);
   }
   for (const CaseBeam& beam : resolved.beams)
     if (beam.velocity) {
@@ -85,6 +86,8 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
     for (const CaseConnectorEnd& end : connector.ends)
       if (end.point) forces.push_back(*end.point - origin);
   }
+  for (const CaseConnector& connector : resolved.rotational_connectors)
+    if (connector.axis) moments.push_back(*connector.axis);
   for (const CaseBody& body : resolved.bodies) {
     if (body.position) forces.push_back(*body.position - origin);
     if (body.velocity) forces.push_back(*body.velocity);
@@ -340,9 +343,22 @@ bool bears_moment(const ResolvedCase& resolved, const CaseBeam& beam) {
       [&](const CaseLoad& load) { return load.kind == CaseLoad::Kind::moment && load.beam == beam.name; });
 }
 
+// Whether something turns sections of a beam: a support, or a connector that resists any turn.
+bool is_turned(const ResolvedCase& resolved, const CaseBeam& beam) {
+  return std::ranges::any_of(
+             resolved.supports,
+             [&](const CaseSupport& support) { return support.rotation && support.beam == beam.name; }) ||
+         std::ranges::any_of(
+             resolved.rotational_connectors,
+             [&](const CaseConnector& connector) {
+               return std::ranges::any_of(
+                   connector.ends, [&](const CaseConnectorEnd& end) { return end.beam == beam.name; });
+             });
+}
+
 // Whether a beam that does not say gets torsion: one that is curved as drawn in space would else have to be
-// another one than drawn, what a corner or a joint holds at an angle would turn about it, and a moment across
-// it has a part along it where it bends.
+// another one than drawn, what a corner or a joint holds at an angle would turn about it, a moment across it
+// has a part along it where it bends, and what turns its sections turns them about it too.
 bool is_given_torsion(const ResolvedCase& resolved, const CaseBeam& beam, const DrawnBeam& drawn) {
   if (!beam.torsion_by_drawing || drawn.curve.dimension() != 3) return false;
   const bool keeps_corner = beam.corners == Corners::rigid && !drawn.corners.empty();
@@ -350,7 +366,7 @@ bool is_given_torsion(const ResolvedCase& resolved, const CaseBeam& beam, const 
     return joint.rigid && std::find(joint.beams.begin(), joint.beams.end(), beam.name) != joint.beams.end();
   };
   return is_curved(drawn.curve) || keeps_corner || bears_moment(resolved, beam) ||
-         std::any_of(resolved.joints.begin(), resolved.joints.end(), holds_it);
+         is_turned(resolved, beam) || std::any_of(resolved.joints.begin(), resolved.joints.end(), holds_it);
 }
 
 // Draws the beams and adds them to a model that has its frame, without supports and elements.
@@ -385,8 +401,9 @@ std::vector<DrawnBeam> add_beams(ResolvedCase& resolved, const std::vector<BeamA
     built.model.beams.push_back(std::move(beam));
     built.sources.push_back({axes[b].curve_name, axes[b].source});
     if (built.frame.dimension == 3)
-      built.sources.back().torsion =
-          why_torsion(from, {asked, uneven, is_curved(drawn->curve), bears_moment(resolved, from)});
+      built.sources.back().torsion = why_torsion(
+          from,
+          {asked, uneven, is_curved(drawn->curve), bears_moment(resolved, from), is_turned(resolved, from)});
     built.sources.back().outline = section_outline(*section);
     if (!like)
       built.sources.back().drawn_bending =
@@ -504,6 +521,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   if (!findings.has_errors()) add_eyelets(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_reels(resolved, beams, held, built.frame, built.model, findings);
   add_connectors(resolved, beams, built.frame, built.model, findings);
+  add_rotational_connectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors())
     built.collectors = add_collectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);

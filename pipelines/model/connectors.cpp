@@ -69,10 +69,11 @@ void add_mass(double mass, const Grip& end, BeamModel& model) {
 std::vector<double> connector_places(const ResolvedCase& resolved, int b, const DrawnBeam& beam,
                                      Findings& findings) {
   std::vector<double> places;
-  for (const CaseConnector& connector : resolved.connectors)
-    for (const CaseConnectorEnd& end : connector.ends)
-      if (!end.beam.empty() && resolved.beam_index(end.beam) == b)
-        places.push_back(place_on(beam, end.at, end.path, findings));
+  for (const auto* connectors : {&resolved.connectors, &resolved.rotational_connectors})
+    for (const CaseConnector& connector : *connectors)
+      for (const CaseConnectorEnd& end : connector.ends)
+        if (!end.beam.empty() && resolved.beam_index(end.beam) == b)
+          places.push_back(place_on(beam, end.at, end.path, findings));
   return places;
 }
 
@@ -114,6 +115,60 @@ void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& 
                      "\"from\" and \"to\", or leave \"length\" out");
     for (const int end : {0, 1}) add_mass(from.end_masses[end], connector.ends[end], model);
     model.connectors.push_back(std::move(connector));
+  }
+}
+
+namespace {
+
+// What a rotational connector needs of its ends and of their beams.
+void check_turned_ends(const CaseConnector& from, const RotationalConnector& connector,
+                       const BeamModel& model, Findings& findings) {
+  const auto& [a, b] = connector.ends;
+  if (a.is_point() && b.is_point())
+    findings.error(
+        from.path,
+        "joins space to space, as rigid guides and points do not turn; give an elastic \"beam\" as one end");
+  if (a.beam >= 0 && a.beam == b.beam && a.s == b.s)
+    findings.error(from.path, "joins a place of beam " + in_quotes(from.ends[0].beam) +
+                                  " to itself, at s = " + text_of(a.s) + " m");
+  if (connector.axis || model.dimension == 2) {
+    for (const int i : {0, 1}) {
+      const Grip& end = connector.ends[i];
+      if (end.beam < 0 || model.dimension == 2 || model.beams[end.beam].has_torsion()) continue;
+      const Eigen::Vector3d t = model.beams[end.beam].curve.tangent(end.s).normalized();
+      if (t.cross(*connector.axis).norm() < 1e-6)
+        findings.error(
+            from.path + ".axis",
+            "is along beam " + in_quotes(from.ends[i].beam) +
+                ", which has no torsion and so no angle about itself: give it \"torsion\": true, or "
+                "another axis");
+    }
+    return;
+  }
+  for (const int i : {0, 1})
+    if (const Grip& end = connector.ends[i]; end.beam >= 0 && !model.beams[end.beam].has_torsion())
+      findings.error(from.path, "has no \"axis\", which it needs on beam " + in_quotes(from.ends[i].beam) +
+                                    ", as that has no torsion; give one, or the beam \"torsion\": true");
+  for (const auto& [key, value] : {std::pair{".angle", from.angle}, std::pair{".moment", from.moment}})
+    if (value != 0)
+      findings.error(from.path + key, "is about an \"axis\", and there is none; give one, or leave this out");
+}
+
+}  // namespace
+
+void add_rotational_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
+                               const ModelFrame& frame, BeamModel& model, Findings& findings) {
+  for (const CaseConnector& from : resolved.rotational_connectors) {
+    RotationalConnector connector{.name = from.name,
+                                  .ends = {end_of(from.ends[0], resolved, beams, model, frame, findings),
+                                           end_of(from.ends[1], resolved, beams, model, frame, findings)},
+                                  .stiffness = from.stiffness,
+                                  .damping = from.damping,
+                                  .angle = from.angle,
+                                  .moment = from.moment};
+    if (from.axis) connector.axis = frame.moment_to_local(from.axis->stableNormalized()).normalized();
+    check_turned_ends(from, connector, model, findings);
+    model.rotational_connectors.push_back(std::move(connector));
   }
 }
 

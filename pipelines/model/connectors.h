@@ -18,4 +18,8 @@ std::vector<double> connector_places(const ResolvedCase& resolved, int b, const 
 void add_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
                     const ModelFrame& frame, BeamModel& model, Findings& findings);
 
+/// Adds the rotational connectors of a case to a model that has its beams.
+void add_rotational_connectors(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams,
+                               const ModelFrame& frame, BeamModel& model, Findings& findings);
+
 }  // namespace nurbeam

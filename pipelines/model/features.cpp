@@ -123,6 +123,11 @@ void add_connector(const Connector& connector, Named& named) {
   named.add("connector length to be found", connector.length_rule != ConnectorLength::given);
 }
 
+void add_rotational(const RotationalConnector& connector, int dimension, Named& named) {
+  named.add(connector.counts(dimension) ? "rotational connector about an axis" : "rotational connector");
+  named.add("damper", connector.damping > 0);
+}
+
 void add_stop(const Stop& stop, Named& named) {
   named.add("hard stop", !stop.buffer);
   named.add("buffer", stop.buffer.has_value());
@@ -145,6 +150,8 @@ void add_constraint(const Constraint& constraint, const BeamModel& model, Named&
                           named.add("pinned",
                                     !support.clamped && !support.fork && !support.guide && !support.axis);
                           named.add("moved support", support.motion.has_value());
+                          named.add("support that turns", support.turn.has_value());
+                          named.add("clamp that slides", support.guide && (support.clamped || support.fork));
                         },
                         [&](const BeamJoint& joint) {
                           named.add("rigid joint", joint.rigid);
@@ -225,6 +232,8 @@ Features features_of(const BeamModel& model) {
     named.add("wind", body.drag_area > 0 && model.air.density > 0 && !model.air.wind.isZero(0));
   }
   for (const Connector& connector : model.connectors) add_connector(connector, named);
+  for (const RotationalConnector& connector : model.rotational_connectors)
+    add_rotational(connector, model.dimension, named);
   for (const Stop& stop : model.stops) add_stop(stop, named);
   for (const Constraint& constraint : model.constraints) add_constraint(constraint, model, named);
   for (const Force& force : model.forces) add_force(force, named);
@@ -261,6 +270,7 @@ const Features& all_features() {
                             "buckling",
                             "buffer",
                             "carried as a point",
+                            "clamp that slides",
                             "clamped",
                             "compression buckles",
                             "compression-only",
@@ -340,6 +350,8 @@ const Features& all_features() {
                             "ring",
                             "rod",
                             "rope wound under tension",
+                            "rotational connector",
+                            "rotational connector about an axis",
                             "rotor",
                             "sleeve",
                             "sliding body",
@@ -348,6 +360,7 @@ const Features& all_features() {
                             "spool",
                             "spring",
                             "statics",
+                            "support that turns",
                             "stop between bodies",
                             "stress-free: as drawn",
                             "stress-free: straight",

@@ -55,7 +55,8 @@ Sums sums_of(const BeamModel& model) {
 
 double largest_tension(const BeamModel& model, int b) {
   for (const Constraint& constraint : model.constraints)
-    if (const auto* support = std::get_if<Support>(&constraint); support && support->motion)
+    if (const auto* support = std::get_if<Support>(&constraint);
+        support && (support->motion || support->turn))
       return std::numeric_limits<double>::infinity();
   const Beam& beam = model.beams[b];
   const Sums sums = sums_of(model);

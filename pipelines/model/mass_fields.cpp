@@ -19,11 +19,16 @@ MassField field_in(MassField field, const ModelFrame& frame) {
 void check_field(const ResolvedCase& resolved, Findings& findings) {
   const bool turns = !resolved.field->rate.isZero(0);
   const std::string key = turns ? "frame" : "gravity";
-  if (resolved.analysis.has_modes())
-    findings.error("analysis.type",
-                   "looks for modes or buckling, which are not known in a frame that turns and "
-                   "near a point that attracts; leave \"" +
-                       key + "\" out, or run a motion");
+  const CaseAnalysis& analysis = resolved.analysis;
+  const bool buckles = analysis.type == CaseAnalysis::Type::buckling;
+  if (buckles || (analysis.has_modes() && resolved.field->attraction != 0))
+    findings.error("analysis.type", std::string("looks for ") + (buckles ? "buckling" : "modes") +
+                                        ", which is not known " +
+                                        (turns ? "in a frame that turns" : "near a point that attracts") +
+                                        "; leave \"" + key + "\" out, or run a motion");
+  else if (analysis.has_modes() && !analysis.modes.about_equilibrium)
+    findings.error("analysis.modes.about",
+                   "is \"drawn\", without what acts in the frame that turns; use \"equilibrium\"");
   for (const CaseBeam& beam : resolved.beams)
     if (beam.torsion)
       findings.error(beam.path + ".torsion",

@@ -122,6 +122,23 @@ void add_rings(BeamModel& model) {
   }
 }
 
+// What supports that turn and rotational connectors do.
+void add_turns(BeamModel& model) {
+  const auto add = [&](const std::string& name, bool of_support, int part,
+                       std::initializer_list<OfTurn::Quantity> quantities) {
+    for (const TurnQuantity& of : turn_quantities)
+      if (std::ranges::find(quantities, of.quantity) != quantities.end())
+        model.measures.push_back(OfTurn{name + "." + of.name, of_support, part, of.quantity});
+  };
+  using enum OfTurn::Quantity;
+  for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i)
+    if (turn_of(model.constraints[i]))
+      add(std::visit([&](const auto& c) { return c.reaction_name(model); }, model.constraints[i]), true, i,
+          {angle, spin, drive_moment});
+  for (int i = 0; i < static_cast<int>(model.rotational_connectors.size()); ++i)
+    add(model.rotational_connectors[i].name, false, i, {angle, moment});
+}
+
 }  // namespace
 
 void add_measures(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
@@ -130,6 +147,7 @@ void add_measures(const ResolvedCase& resolved, const std::vector<DrawnBeam>& be
     if (!model.beams[b].rigid)
       add_sags(model.beams[b], b, held_places(resolved, beams, b, model, findings), model);
   add_rings(model);
+  add_turns(model);
   for (const CaseClearance& clearance : resolved.clearances)
     add_clearance(resolved, clearance, frame, files, model, findings);
 }

@@ -79,7 +79,8 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
     names.springs = names.springs || rider.friction || (rider.reel && rider.reel->strain_energy > 0);
   }
   for (const Stop& stop : built.model.stops) names.springs = names.springs || stop.buffer;
-  names.springs = names.springs || !built.model.connectors.empty();
+  names.springs =
+      names.springs || !built.model.connectors.empty() || !built.model.rotational_connectors.empty();
   for (const Beam& beam : built.model.beams) {
     names.beams.push_back(beam.name);
     names.sections = names.sections || beam.has_torsion();

@@ -115,6 +115,7 @@ Json to_json(const Support& support, const BuiltModel& built) {
                    : support.fork  ? "fork"
                    : support.guide ? "guided"
                                    : "pinned"},
+          {"turns", support.turn.has_value()},
           {"s [m]", support.s},
           {"position [m]", to_json(built.frame.to_world(beam.curve.position(support.s)))},
           {"outward", to_json(built.frame.direction_to_world(outward(built.model, support)))}};
@@ -203,6 +204,20 @@ Json to_json(const Connector& connector, const BuiltModel& built) {
   return json;
 }
 
+Json to_json(const RotationalConnector& connector, const BuiltModel& built) {
+  Json json = {{"name", connector.name},
+               {"type", "rotational"},
+               {"from", to_json(connector.ends[0], built)},
+               {"to", to_json(connector.ends[1], built)},
+               {"stiffness [N m/rad]", connector.stiffness},
+               {"damping [N m s/rad]", connector.damping}};
+  if (connector.axis)
+    json.update({{"axis", to_json(built.frame.direction_to_world(*connector.axis))},
+                 {"free angle [rad]", connector.angle},
+                 {"moment [N m]", connector.moment}});
+  return json;
+}
+
 Json load_json(const char* kind, int beam, const Eigen::Vector3d& value, const TimeTable& time,
                const BuiltModel& built) {
   return {{"beam", built.model.beams[beam].name},
@@ -282,6 +297,8 @@ std::string model_summary(const CaseFile& case_file, const BuiltModel& built) {
   for (const Rider& joint : model.riders) json["joints"].push_back(to_json(joint, model));
   for (const SlopeDecision& slope : built.slopes) json["slopes"].push_back(to_json(slope, model));
   for (const Connector& connector : model.connectors) json["connectors"].push_back(to_json(connector, built));
+  for (const RotationalConnector& connector : model.rotational_connectors)
+    json["connectors"].push_back(to_json(connector, built));
   for (const Force& force : model.forces)
     std::visit(
         [&](const auto& load) {

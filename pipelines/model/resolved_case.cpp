@@ -187,9 +187,10 @@ void name_beams(ResolvedCase& resolved, const BeamNames& names, Findings& findin
   for (const CaseBeamJoint& joint : resolved.joints)
     for (const std::string& name : joint.beams)
       needs_one(name, joint.path, ".beams", "names ", "choose of: ");
-  for (const CaseConnector& connector : resolved.connectors)
-    for (const CaseConnectorEnd& end : connector.ends)
-      if (!end.beam.empty()) needs_one(end.beam, end.path);
+  for (const auto& connectors : {resolved.connectors, resolved.rotational_connectors})
+    for (const CaseConnector& connector : connectors)
+      for (const CaseConnectorEnd& end : connector.ends)
+        if (!end.beam.empty()) needs_one(end.beam, end.path);
   for (const CaseBodyJoint& joint : resolved.body_joints)
     if (!joint.between[1].beam.empty()) needs_one(joint.between[1].beam, joint.between[1].path);
   each_needs_one(resolved.probes);
@@ -212,12 +213,14 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .joints = case_file.joints,
                         .body_joints = case_file.body_joints,
                         .body_loads = case_file.body_loads,
-                        .connectors = case_file.connectors,
+                        .connectors = {},
                         .collectors = case_file.collectors,
                         .probes = case_file.output.probes,
                         .clearances = case_file.output.clearances,
                         .laws = case_file.laws,
                         .analysis = case_file.analysis};
+  for (const CaseConnector& connector : case_file.connectors)
+    (connector.rotational ? resolved.rotational_connectors : resolved.connectors).push_back(connector);
   BeamNames names;
   std::map<std::string, std::string> whole;
   for (const CaseBeam& beam : case_file.beams) {

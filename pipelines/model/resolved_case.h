@@ -27,7 +27,8 @@ struct ResolvedCase {
   std::vector<CaseBeamJoint> joints;
   std::vector<CaseBodyJoint> body_joints = {};
   std::vector<CaseBodyLoad> body_loads = {};
-  std::vector<CaseConnector> connectors;
+  std::vector<CaseConnector> connectors;  ///< along a line
+  std::vector<CaseConnector> rotational_connectors = {};
   std::vector<CaseCollector> collectors = {};
   std::vector<CaseProbe> probes;
   std::vector<CaseClearance> clearances;

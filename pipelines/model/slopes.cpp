@@ -70,6 +70,14 @@ class Candidates {
       const double s = place(b, support.at, support.path);
       const bool is_clamp = support.type == CaseSupport::Type::clamped;
       if (support.axis) obstacles.push_back({b, s, "the support's axis turns the section there"});
+      if (support.rotation || (is_clamp && support.direction)) {
+        obstacles.push_back({b, s, support.rotation ? "the support turns there" : "the clamp slides there"});
+        if (support.slope == SlopeRule::discontinuous)
+          findings_.error(support.path + ".slope", std::string("is \"discontinuous\", but the support ") +
+                                                       (support.rotation ? "turns" : "slides") +
+                                                       "; use \"continuous\", or leave it out");
+        continue;
+      }
       if (is_clamp || !is_at_end(model_, b, s))
         add({.path = support.path, .beam = b, .s = s, .asked = support.slope, .is_clamp = is_clamp});
     }
@@ -81,6 +89,17 @@ class Candidates {
         if (!end.beam.empty()) {
           const int b = resolved_.beam_index(end.beam);
           add({.path = end.path, .beam = b, .s = place(b, end.at, end.path), .asked = end.slope});
+        }
+    for (const CaseConnector& connector : resolved_.rotational_connectors)
+      for (const CaseConnectorEnd& end : connector.ends)
+        if (!end.beam.empty()) {
+          const int b = resolved_.beam_index(end.beam);
+          const double s = place(b, end.at, end.path);
+          obstacles.push_back({b, s, "a rotational connector turns the section there"});
+          if (end.slope == SlopeRule::discontinuous)
+            findings_.error(end.path + ".slope",
+                            "is \"discontinuous\", but a rotational connector takes hold of one slope; use "
+                            "\"continuous\", or leave it out");
         }
   }
 

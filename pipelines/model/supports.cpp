@@ -1,6 +1,7 @@
 #include "pipelines/model/supports.h"
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -57,6 +58,33 @@ std::optional<DisplacementTable> motion_of(const ResolvedCase& resolved, const C
   return motion;
 }
 
+// A turn begins at the drawing, unless the run begins with a search for rest.
+std::optional<AxisTurn> turn_in(const ResolvedCase& resolved, const CaseSupport& support,
+                                const Eigen::Vector3d& place, const Beam& beam, const ModelFrame& frame,
+                                Findings& findings) {
+  if (!support.rotation) return {};
+  const CaseRotation& from = *support.rotation;
+  const CaseAnalysis& analysis = resolved.analysis;
+  const bool moves = analysis.type == CaseAnalysis::Type::dynamic;  // else it grows with the load factor
+  if (from.speed && !moves)
+    findings.error(from.path + ".speed",
+                   "is of a motion, and nothing moves here; give a \"table\" of angles");
+  const Eigen::Vector3d axis = frame.moment_to_local(from.axis.stableNormalized()).normalized();
+  const AngleMotion angle = from.speed ? AngleMotion::at_speed(*from.speed, from.ramp)
+                                       : AngleMotion(from.table, moves ? from.join : RowJoin::linear);
+  if (const double start = angle.at(0).angle; start != 0 && moves && !analysis.start_from_equilibrium)
+    findings.error(from.path + ".table",
+                   "is at " + text_of(start * 180 / std::numbers::pi) +
+                       " degrees at time 0, but the run starts as drawn; begin with [0, 0], or start with "
+                       "\"initial\": \"equilibrium\"");
+  if (from.speed && !(from.ramp > 0) && *from.speed != 0 && moves && !beam.velocity)
+    findings.warn(from.path + ".speed",
+                  "is there at once, which is a blow on beam \"" + support.beam +
+                      "\" at rest; give a \"ramp\", or let the beam turn from the start by its "
+                      "\"initial\": { \"velocity\": { \"rotation\" } }");
+  return AxisTurn{axis, from.about ? frame.to_local(*from.about) : place, angle};
+}
+
 // Makes a support guided, with what pulls it.
 void add_guide(const CaseSupport& from, const ModelFrame& frame, Support& support, BeamModel& model) {
   support.guide = frame.direction_to_local(from.direction->stableNormalized());
@@ -99,6 +127,8 @@ std::vector<double> add_supports(const ResolvedCase& resolved, int b, const Draw
     Support& added = std::get<Support>(model.constraints.back());
     if (support.axis) added.axis = frame.direction_to_local(*support.axis);
     if (support.direction) add_guide(support, frame, added, model);
+    added.turn =
+        turn_in(resolved, support, model.beams[b].curve.position(added.s), model.beams[b], frame, findings);
   }
   return places;
 }

@@ -11,6 +11,7 @@ struct TorsionReasons {
   bool uneven;  ///< its section bends about two axes of its own
   bool curved;  ///< as it is drawn
   bool moment;  ///< works on it
+  bool turned;  ///< by a support that turns, or held by a rotational connector
 };
 
 /// Whether a beam in space has torsion, which its `torsion` says by now, and why: for those who check a case.

@@ -61,6 +61,8 @@ inline std::pair<std::string, std::string> parts_of_measure(const std::string& n
 inline const char* unit_of_measure(const std::string& quantity) {
   for (const RingQuantity& of : ring_quantities)
     if (quantity == of.name) return of.unit;
+  for (const TurnQuantity& of : turn_quantities)
+    if (quantity == of.name) return of.unit;
   return "m";
 }
 

@@ -160,8 +160,9 @@ void FrameStore::define_measures(const std::vector<std::string>& names) {
   if (names.empty()) return;
   file_.define_dimension("measure", names.size());
   file_.define_texts("measure_name", "measure", "beam and quantity, or name of the clearance", names);
-  define_of_time("measure", {"measure"}, "SI unit of the quantity",
-                 "sag of a part of a beam, clearance below it, or what it does at an eyelet or a reel");
+  define_of_time(
+      "measure", {"measure"}, "SI unit of the quantity",
+      "sag of a part of a beam, clearance below it, what it does at an eyelet or a reel, or what turns");
   define_of_time("measure_s", {"measure"}, "m", "where: reference arc length");
 }
 

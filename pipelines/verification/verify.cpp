@@ -131,6 +131,7 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, body_problems());
   append(all, collector_problems());
   append(all, rope_motion_problems());
+  append(all, turning_problems());
   append(all, sliding_problems());
   return all;
 }

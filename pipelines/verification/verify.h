@@ -79,6 +79,8 @@ std::vector<VerifyProblem> body_problems();
 std::vector<VerifyProblem> reel_problems();
 std::vector<VerifyProblem> collector_problems();
 std::vector<VerifyProblem> rope_motion_problems();
+/// Supports that turn and slide, rotational connectors.
+std::vector<VerifyProblem> turning_problems();
 
 /// Runs the problems, as many at a time as there are processors, in their order; what is done so far is
 /// printed to `progress`. A problem that throws is one failed row.

@@ -323,14 +323,18 @@ class Model:
         name: str | None = None,
         motion: Any = None,
         axis: npt.ArrayLike | None = None,
+        rotation: Mapping[str, Any] | None = None,
         **keys: Any,
     ) -> None:
-        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork"; or a body or its
-        `body.at("rim")`, where "pinned" is a ball, and a pin with `axis`. `motion` moves it from
+        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork", which with a
+        `direction` slide along it; or a body or its `body.at("rim")`, where "pinned" is a ball, and a pin with `axis`.
+        `rotation` turns what it holds of a beam: {"axis": ..., "table": rows [time, degrees]} or {"axis": ...,
+        "speed": rad/s, "ramp": s}, about a point `about` where that is given. `motion` moves it from
         its drawn place: rows [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or
         this with its first two derivatives; else these are taken by differences over 0.1 ms, also just before time 0.
         A `Signal` of three numbers is its velocity [m/s]."""
         by = self._by_function(motion)
+        by["rotation"] = rotation
         if isinstance(beam, (Body, Mapping)):
             self.add("supports", **_grip(beam), type=type, name=name, axis=axis, **by, **keys)
         else:
@@ -415,8 +419,8 @@ class Model:
         end: Mapping[str, Any] | Body | npt.ArrayLike,
         **keys: Any,
     ) -> None:
-        """Connects two bodies, positions on beams or points: a "spring", "rod", "tension-only" or what else the case file
-        has. An end is a body, {"beam": ..., "at": ...}, or a point in space (3,) [m]. Keys as in the case file:
+        """Connects two bodies, positions on beams or points: a "spring", "rod", "tension-only", "rotational" (about an
+        `axis`) or what else the case file has. An end is a body, {"beam": ..., "at": ...}, or a point in space (3,) [m]. Keys as in the case file:
         `stiffness`, `damping`, `length`, ..."""
         self.add("connectors", name=name, type=type, **{"from": _grip(start), "to": _grip(end)}, **keys)
 

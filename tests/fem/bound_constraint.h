@@ -17,6 +17,8 @@ struct ConstraintOfSystem {
   std::function<Eigen::MatrixXd(const State&)> gradient;                           ///< (rows x n)
   std::function<Eigen::MatrixXd(const State&, const Eigen::VectorXd& y)> hessian;  ///< (n x n) y . d2g/dq2
   std::function<Eigen::VectorXd(double t)> rate, acceleration;                     ///< (rows) of g at fixed q
+  /// (rows) dg/dt, and d2g/dt2 + 2 d2g/dt dq v, in a state.
+  std::function<Eigen::VectorXd(const State&)> rate_in, acceleration_in;
   std::function<double(const State& from, const State& to, const Eigen::VectorXd& y)> work;
 
   /// (n) Generalised forces of its multipliers: -G'y.
@@ -79,10 +81,28 @@ BoundIn<D, C> in_system(const Assembly<D>& in, const C& c) {
     return Eigen::VectorXd::Zero(C::rows);
   };
   bound.acceleration = [&c](double t) -> Eigen::VectorXd {
-    if constexpr (requires { c.acceleration(t); }) return c.acceleration(t);
+    if constexpr (
+        requires { c.acceleration(t); })
+      return c.acceleration(t);
     return Eigen::VectorXd::Zero(C::rows);
   };
-  if constexpr (C::offers.work)
+  bound.rate_in = [&in, &c, rate = bound.rate](const State& state) -> Eigen::VectorXd {
+    if constexpr (
+        requires { c.rate(in.beams(), state); })
+      return c.rate(in.beams(), state);
+    return rate(state.t);
+  };
+  bound.acceleration_in = [&in, &c, rate = bound.acceleration](const State& state) -> Eigen::VectorXd {
+    if constexpr (
+        requires { c.acceleration(in.beams(), state); })
+      return c.acceleration(in.beams(), state);
+    return rate(state.t);
+  };
+  if constexpr (requires(const State& x, const Eigen::VectorXd& y) { c.work(in.beams(), x, x, y, y); })
+    bound.work = [&in, &c](const State& from, const State& to, const Eigen::VectorXd& y) {
+      return c.work(in.beams(), from, to, y, y);
+    };
+  else if constexpr (C::offers.work)
     bound.work = [&c](const State& from, const State& to, const Eigen::VectorXd& y) {
       return c.work(from, to, y, y);
     };
@@ -137,10 +157,12 @@ inline void expect_derivatives(const ConstraintOfSystem& c, const State& state, 
   }
   const Eigen::MatrixXd H = c.hessian(state, y);
   EXPECT_LT((H - H.transpose()).norm(), 1e-12 * (1 + H.norm()));
-  const auto first = [&](const State& at) -> Eigen::VectorXd { return c.gradient(at) * at.v + c.rate(at.t); };
+  const auto first = [&](const State& at) -> Eigen::VectorXd {
+    return c.gradient(at) * at.v + c.rate_in(at);
+  };
   expect_rate([&](double h) { return c.value(at_time(state, h)); }, first(state));
   expect_rate([&](double h) { return first(at_time(state, h)); },
-              c.gradient(state) * state.a + c.curvature(state) + c.acceleration(state.t));
+              c.gradient(state) * state.a + c.curvature(state) + c.acceleration_in(state));
 }
 
 /// Expects work(from, to, y, y) to be that of the power which constant multipliers have.

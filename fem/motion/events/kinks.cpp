@@ -21,18 +21,20 @@ void add_leaving(const LoadAtPlace& load, const Beam& beam, std::vector<double>&
   times.push_back((way + std::copysign(2e-12 * length, load.speed)) / load.speed);
 }
 
-// Calls visit(rows) for the curve through the rows of each component of a moved support.
+// Calls visit(rows) for the curve through the rows of each component of a moved support, and of the angle of
+// one that turns.
 template <class Visit>
 void for_each_moved_support(const BeamModel& model, const Visit& visit) {
-  for (const Constraint& constraint : model.constraints)
+  for (const Constraint& constraint : model.constraints) {
+    if (const AxisTurn* turn = turn_of(constraint); turn && turn->angle.rows()) visit(*turn->angle.rows());
     std::visit(
         [&](const auto& c) {
-          if constexpr (
-              requires { c.motion; })
+          if constexpr (requires { c.motion; })
             if (c.motion)
               for (const RowCurve& component : c.motion->components()) visit(component);
         },
         constraint);
+  }
 }
 
 // Adds the times of rows with a kink, or without one.

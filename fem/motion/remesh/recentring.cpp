@@ -9,7 +9,9 @@ namespace nurbeam {
 
 bool keeps_drawn_chart(const BeamSystem& system, const MeshElement<3>& e, int end) {
   const MeshNode& node = end == 0 ? system.mesh().node_a(*e.span) : system.mesh().node_b(*e.span);
-  return node.home >= 0 && system.model().beams[e.span->beam].home[node.home].hold == Hold::clamp;
+  if (node.home < 0) return false;
+  const HomeNode& home = system.model().beams[e.span->beam].home[node.home];
+  return home.hold == Hold::clamp && !home.turns;
 }
 
 bool recentring_due(const BeamSystem& system, const State& state) {

@@ -8,7 +8,7 @@ namespace nurbeam {
 /// tangent.
 bool recentring_due(const BeamSystem& system, const State& state);
 
-/// Whether an end is at a clamped node, which keeps the chart of the drawing.
+/// Whether an end is at a node clamped for good, which keeps the chart of the drawing.
 bool keeps_drawn_chart(const BeamSystem& system, const MeshElement<3>& e, int end);
 
 /// The motion in the charts of the present sections, on the same mesh: angles become zero, their rates the

@@ -1,5 +1,6 @@
 #include "fem/motion/rest/buckling.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -56,6 +57,8 @@ BeamModel with_viscous_strains(const BeamModel& model) {
     for (PipeBend& bend : beam.bends) bend.properties.damping += 1;
   }
   for (Connector& connector : viscous.connectors) connector.damping += connector.stiffness;
+  for (RotationalConnector& connector : viscous.rotational_connectors)
+    connector.damping += connector.stiffness;
   return viscous;
 }
 
@@ -86,6 +89,30 @@ double longest(const BeamSystem& system, const Vector& change) {
   for (Eigen::Index i = 0; i < over.size(); ++i)
     if (!in_vector[i]) result = std::max(result, std::abs(over[i]));
   return result;
+}
+
+// The largest entry of an unsymmetric matrix (n) that motions see which the constraints of `kkt` allow: its
+// projection onto these. A moment that is fixed in space has no energy by itself, but it has one where
+// supports hold the section's turn about another axis.
+double largest_allowed(const Matrix& unsymmetric, const Matrix& kkt) {
+  const auto n = unsymmetric.rows(), m = kkt.rows() - n;
+  std::vector<Eigen::Index> loaded;
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (Matrix::InnerIterator entry(unsymmetric, k); entry; ++entry)
+      if (entry.value() != 0) {
+        loaded.push_back(k);
+        break;
+      }
+  if (loaded.empty()) return 0;
+  Eigen::MatrixXd allowed = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(loaded.size()));
+  for (std::size_t i = 0; i < loaded.size(); ++i) allowed(loaded[i], static_cast<Eigen::Index>(i)) = 1;
+  if (m > 0) {
+    const Matrix G = kkt.bottomLeftCorner(m, n);
+    Eigen::SimplicialLDLT<Matrix> square(Matrix(G * Matrix(G.transpose())));
+    if (square.info() != Eigen::Success) return largest_entry(unsymmetric);
+    allowed -= Matrix(G.transpose()) * square.solve(Eigen::MatrixXd(G * allowed));
+  }
+  return (allowed.transpose() * (unsymmetric * allowed)).cwiseAbs().maxCoeff();
 }
 
 // The stiffness from section forces, multipliers and loads that `loaded` has beyond those of `system`, to
@@ -133,7 +160,7 @@ std::optional<LoadStiffness> stiffness_of_loads(const BeamSystem& system, const 
   const double allowed = 1e-9 * largest_entry(of_loads) + 1e-15 * largest_entry(kkt);
   return LoadStiffness{Matrix(geometric + of_loads).topLeftCorner(n, n),
                        moves ? 1 / fastest : std::numeric_limits<double>::infinity(),
-                       largest_entry(unsymmetric) <= allowed};
+                       largest_entry(unsymmetric) <= allowed || largest_allowed(unsymmetric, kkt) <= allowed};
 }
 
 // Whether the model can move without strain.

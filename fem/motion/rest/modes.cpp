@@ -1,7 +1,9 @@
 #include "fem/motion/rest/modes.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <utility>
 #include <vector>
 
@@ -66,6 +68,35 @@ Vector translation(const BeamSystem& system, int axis) {
   return e;
 }
 
+/// Vibrations with gyroscopic forces, M x'' + G x' + K x = 0 with G' = -G, in the space of the lowest
+/// vibrations without them, where M = 1 and K = L^2 is diagonal. With y = (L x, x') it is y' = S y with the
+/// skew matrix S = [0, L; -L, -G], of eigenvalues i omega. A shape is that at its widest moment.
+SquaredFrequencies with_gyroscopes(const SquaredFrequencies& still, const Matrix& gyroscopic, int count) {
+  const Eigen::Index n = still.values.size();
+  const Eigen::MatrixXd G = still.shapes.transpose() * (gyroscopic * still.shapes);
+  const Eigen::MatrixXd L = still.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+  Eigen::MatrixXcd H = Eigen::MatrixXcd::Zero(2 * n, 2 * n);  // -i S
+  const std::complex<double> i(0, 1);
+  H.topRightCorner(n, n) = -i * L;
+  H.bottomLeftCorner(n, n) = i * L;
+  H.bottomRightCorner(n, n) = i * (G - G.transpose()) / 2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(H);
+  SquaredFrequencies found{.values = Vector(count),
+                           .shapes = Eigen::MatrixXd(still.shapes.rows(), count),
+                           .resolution = still.resolution};
+  for (int k = 0; k < count; ++k) {
+    const double omega = solver.eigenvalues()[n + k];  // those below 0 are as many
+    found.values[k] = omega * omega;
+    // x' is i omega x; the phase in which x is widest.
+    Eigen::VectorXcd x = solver.eigenvectors().col(n + k).tail(n);
+    const std::complex<double> square = x.cwiseProduct(x).sum();
+    if (std::abs(square) > 1e-12) x *= std::exp(-i * std::arg(square) / 2.0);
+    const Vector real = x.real();
+    found.shapes.col(k) = still.shapes * real.normalized();
+  }
+  return found;
+}
+
 std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::function<void()>& between,
                                        ModesReport& report) {
   const BeamSystem& system = *report.at.system;
@@ -73,8 +104,15 @@ std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::
   const Matrix mass_kkt = tangent_matrix(system, report.at.state, {.mass = 1});
   const Matrix K = coordinate_block(kkt, n), M = coordinate_block(mass_kkt, n);
   const int most = std::max(0, n - system.constraint_count());
-  const auto found = lowest_frequencies(kkt, mass_kkt, n, std::min(count, most), between);
+  const bool turns = system.model().field && !system.model().field->rate.isZero(0);
+  constexpr int more = 30;  // of a frame that turns: the space in which Coriolis forces are
+  const int wanted = std::min(count, most);
+  auto found =
+      lowest_frequencies(kkt, mass_kkt, n, turns ? std::min(4 * count + more, most) : wanted, between);
   if (!found) return failure_of(Failure::Kind::eigenvalues);
+  if (turns)
+    found = with_gyroscopes(
+        *found, coordinate_block(tangent_matrix(system, report.at.state, {.damping = 1}), n), wanted);
   std::vector<double> round_offs;
   for (Eigen::Index i = 0; i < found->values.size(); ++i) round_offs.push_back(round_off(*found, i, K));
   const std::vector<bool> are_rigid = rigid_motions(*found, round_offs);

@@ -12,7 +12,7 @@ namespace nurbeam {
 /// Options of a modal or buckling analysis about a state at rest.
 struct ModesOptions {
   enum class Kind {
-    vibration,  ///< (K - omega^2 M) x = 0
+    vibration,  ///< (K - omega^2 M) x = 0; in a frame that turns (K + i omega G - omega^2 M) x = 0
     buckling  ///< (K + factor K_g) x = 0, where K_g comes from the loads, without weight and permanent forces
   };
   Kind kind = Kind::vibration;

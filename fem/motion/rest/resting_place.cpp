@@ -180,13 +180,50 @@ class RestSearch {
     const bool later = equilibrium_ && *equilibrium_ != to.t;
     const Loading from = later ? Loading{1, *equilibrium_} : Loading{0, to.t};
     const State before = at.state;
+    const MeshedState start = at;
+    const bool is_first = !equilibrium_ || later;  // else the state is near
+    const int parts = is_first ? parts_of_turn(from, to) : 1;
+    StaticReport found;
+    for (int i = 1; i <= parts; ++i) {
+      const Loading here = i == 1 ? from : Loading{at.state.load, at.state.t};
+      if (i > 1 && recentring_due(*at.system, at.state)) at = recentred(*at.system, at.state, held);
+      const double part = i / static_cast<double>(parts);
+      found = load_recentred(
+          at, here,
+          i == parts ? to
+                     : Loading{from.load + part * (to.load - from.load), from.t + part * (to.t - from.t)},
+          held, parts == 1 && is_first ? &before : nullptr);
+      if (found.status != StaticStatus::converged) break;
+    }
+    if (found.status == StaticStatus::converged)
+      equilibrium_ = to.t;
+    else if (at.system != start.system)
+      at = start;
+    return found;
+  }
+
+  // Number of parts in which supports turn on the way between two loadings. An equilibrium is one of the
+  // angle alone, and not of how often it was turned by: it is followed.
+  int parts_of_turn(Loading from, Loading to) const {
+    constexpr double largest_turn = 0.5;  // [rad]
+    double way = 0;
+    for (const Constraint& constraint : model().constraints)
+      if (const AxisTurn* turn = turn_of(constraint))
+        way = std::max(way, std::abs(to.load - from.load) * std::abs(turn->angle.at(to.t).angle) +
+                                turn->angle.way(from.t, to.t));
+    return std::max(1, static_cast<int>(std::ceil(way / largest_turn)));
+  }
+
+  // As load(), in charts of their own where sections have turned far. `before`: the state from which a snap
+  // is looked for, or null.
+  StaticReport load_recentred(MeshedState& at, Loading from, Loading to, const std::vector<bool>& held,
+                              const State* before) {
     StaticReport found = load(at, from, to);
-    if (watches_ && found.status == StaticStatus::converged && (later || !equilibrium_) && !report_.snap)
+    if (before && watches_ && found.status == StaticStatus::converged && !report_.snap)
       report_.snap =
-          find_snap(*at.system, {before, from}, {at.state, to}, found.newton_iterations, interrupted_);
+          find_snap(*at.system, {*before, from}, {at.state, to}, found.newton_iterations, interrupted_);
     // The search stops half way when sections have turned far from their charts; it goes on in charts of
     // their own.
-    const MeshedState start = at;
     constexpr int most_recentrings = 20;
     for (int turns = 0; found.status != StaticStatus::converged && recentring_due(*at.system, at.state) &&
                         turns < most_recentrings;
@@ -194,10 +231,6 @@ class RestSearch {
       at = recentred(*at.system, at.state, held);
       found = load(at, {at.state.load, at.state.t}, to);
     }
-    if (found.status == StaticStatus::converged)
-      equilibrium_ = to.t;
-    else if (at.system != start.system)
-      at = start;
     return found;
   }
 

@@ -34,17 +34,6 @@ bool has_dampers(const BeamSystem& system) {
       });
 }
 
-bool is_moved(const Constraint& constraint) {
-  return std::visit(
-      [](const auto& c) {
-        if constexpr (
-            requires { c.motion; })
-          return c.motion.has_value();
-        return false;
-      },
-      constraint);
-}
-
 // Whether energy may come from outside.
 bool is_driven(const BeamModel& m) {
   return !m.forces.empty() || !m.air.wind.isZero() || has_prescribed_motions(m) ||

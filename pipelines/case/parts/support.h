@@ -1,5 +1,6 @@
 #pragma once
 #include "pipelines/case/parts/grip.h"
+#include "pipelines/case/parts/rotation.h"
 
 namespace nurbeam {
 
@@ -12,8 +13,9 @@ struct CaseSupport {
   std::vector<DisplacementTable::Row> motion = {};  ///< from the drawn place [m]; empty: none
   RowJoin motion_join = RowJoin::smooth_at_rest;
   std::optional<Eigen::Vector3d> axis = {};       ///< of a hinge
-  std::optional<Eigen::Vector3d> direction = {};  ///< of a guided one: where it is free
+  std::optional<Eigen::Vector3d> direction = {};  ///< where it is free: of a guided one, of one that slides
   double force = 0, mass = 0;                     ///< along it [N], [kg]
+  std::optional<CaseRotation> rotation = {};
   SlopeRule slope = SlopeRule::automatic;
   std::optional<int> motion_law = {};  ///< the function of a program that prescribes it
 };
@@ -47,18 +49,26 @@ inline Fields<CaseSupport> support_fields() {
               "position and roll of a beam with torsion; guided: the position but along `direction`, where it is "
               "free")
               .needed(),
-          field(&S::direction, "direction", vector(Dimension::number),
-                "of a guided support: where it is free"),
+          field(
+              &S::direction, "direction", vector(Dimension::number),
+              "where the support is free: of a guided one; of a clamp or a fork that slides, which holds all else"),
           field(&S::force, "force", quantity(Dimension::force, plausible(-1e12, 1e12)),
-                "of a guided support: pulls along `direction`, as a weight over a pulley does")
+                "pulls along `direction`, as a weight over a pulley does")
               .otherwise("0")
               .beside("direction"),
           field(&S::mass, "mass", quantity(Dimension::mass, plausible(0, 1e12)),
-                "of a guided support: the inertia of what pulls it")
+                "the inertia of what pulls it along `direction`")
               .otherwise("0")
               .beside("direction"),
           field(&S::axis, "axis", vector(Dimension::number),
                 "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"),
+          field_by<S>(
+              "rotation", rotation_fields().shape(),
+              "turns all that a clamped, fork or pinned support of a beam holds about an axis in space",
+              [](const Json& json, const std::string& path, S& to, Findings& findings) {
+                to.rotation.emplace().path = path;
+                rotation_fields().read(json, path, *to.rotation, findings);
+              }),
           slope_field(&S::slope),
           field(&S::name, "name", name(), "heads the columns of its reaction"),
           field(
