@@ -104,8 +104,7 @@ std::array<Eigen::Vector3d, 2> across(const Eigen::Vector3d& t) {
 // Where a rigid body holds the point as the bodies start: on a line that is where the point is.
 Eigen::Vector3d arm_now(const BodyJoint& joint, const BeamModel& model) {
   if (!joint.slide || joint.to.body < 0 || !model.bodies[joint.to.body].rigid) return joint.arm;
-  const Eigen::Vector3d away =
-      drawn_place(model, Grip::on_body(joint.point)) - drawn_place(model, joint.to);
+  const Eigen::Vector3d away = drawn_place(model, Grip::on_body(joint.point)) - drawn_place(model, joint.to);
   return model.bodies[joint.to.body].rigid->attitude.conjugate() * away;
 }
 

@@ -28,8 +28,8 @@ void check_guides(const ResolvedCase& resolved, Findings& findings) {
     if (joint.follows_section && of_point_mass)
       refuse(joint.beam, joint.path + ".follows_section", "it has no sections; leave this out");
   }
-  const bool only_guides = std::all_of(resolved.beams.begin(), resolved.beams.end(),
-                                       [](const CaseBeam& beam) { return beam.rigid; });
+  const bool only_guides = std::all_of(
+      resolved.beams.begin(), resolved.beams.end(), [](const CaseBeam& beam) { return beam.rigid; });
   const bool has_rigid_bodies =
       std::ranges::any_of(resolved.bodies, [](const CaseBody& body) { return body.inertia.has_value(); });
   if (only_guides && !has_rigid_bodies && resolved.analysis.has_modes())

@@ -293,8 +293,9 @@ std::string ring_rail(double R) {
     points += (points.empty() ? "" : ", ") + text(Vector(R * x, 0, R * z));
     weights += (weights.empty() ? "" : ", ") + text_of(x != 0 && z != 0 ? std::sqrt(0.5) : 1.0, 17);
   }
-  return R"({ "name": "rail", "rigid": true, "axis": { "nurbs": { "degree": 2, "control_points": [)" + points +
-         R"(], "weights": [)" + weights + R"(], "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4] } } })";
+  return R"({ "name": "rail", "rigid": true, "axis": { "nurbs": { "degree": 2, "control_points": [)" +
+         points + R"(], "weights": [)" + weights +
+         R"(], "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4] } } })";
 }
 std::string wheel(const std::string& of, const std::string& point, const Vector& near,
                   const std::string& more = {}) {
@@ -400,13 +401,13 @@ VerifyResult helical_rail() {
     const double a = -2 * std::numbers::pi * i / 400;
     points += (i == 0 ? "" : ", ") + text(Vector(R * std::cos(a), R * std::sin(a), rise * a));
   }
-  const RunRecord run = run_bodies(
-      body("cart", 90, {R, 0, 0}, {20, 20, 35}, R"(, "points": { "wheel": [4, 0, 0] })"),
-      R"(, "beams": [{ "name": "rail", "rigid": true, "orientation": { "up": [0, 0, 1] },
+  const RunRecord run =
+      run_bodies(body("cart", 90, {R, 0, 0}, {20, 20, 35}, R"(, "points": { "wheel": [4, 0, 0] })"),
+                 R"(, "beams": [{ "name": "rail", "rigid": true, "orientation": { "up": [0, 0, 1] },
            "axis": { "through": [)" +
-          points + R"(] } }], "sliding_joints": [)" +
-          wheel("cart", "wheel", {R, 0, 0}, R"(, "follows": "section")") + "]",
-      1, 1);
+                     points + R"(] } }], "sliding_joints": [)" +
+                     wheel("cart", "wheel", {R, 0, 0}, R"(, "follows": "section")") + "]",
+                 1, 1);
   VerifyResult result;
   result.add("acceleration along the rail [m/s^2]", 2.757396470, "closed form", 2 * at(run, 1, 1).s.value(),
              1e-4);

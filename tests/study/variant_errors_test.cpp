@@ -14,13 +14,14 @@ const std::string cantilever = R"json({"nurbeam": 1, "gravity": [0, 0, 0],
   "analysis": {"type": "static"}, "output": {"probes": [{"name": "tip", "beam": "b", "at": "end"}]}})json";
 
 std::string of_tip(const std::string& range, const std::string& more) {
-  return R"json("variables": [{"name": "E", "path": "beams[0].material.youngs_modulus", "range": )json" + range +
-         R"json(}], "quantities": [{"name": "rise", "value": "last(tip.y)"})json" + more +
+  return R"json("variables": [{"name": "E", "path": "beams[0].material.youngs_modulus", "range": )json" +
+         range + R"json(}], "quantities": [{"name": "rise", "value": "last(tip.y)"})json" + more +
          R"json(], "plan": {"grid": 3})json";
 }
 
 TEST(VariantErrors, HoldAKnownAnswer) {
-  StudyOfCase of(cantilever, of_tip("[0.9e6, 1.1e6]", R"json(, {"name": "err", "value": "error(last(tip.y))"})json"));
+  StudyOfCase of(cantilever,
+                 of_tip("[0.9e6, 1.1e6]", R"json(, {"name": "err", "value": "error(last(tip.y))"})json"));
   const Variant variant = of.run({1e6}, false);
   ASSERT_EQ(variant.quantities.size(), 2U);
   EXPECT_LE(std::abs(variant.quantities[0] - 0.4934584), variant.quantities[1]);

@@ -52,7 +52,7 @@ BeamSystem with_spring(const Made& made) {
 template <class Check>
 void for_each_spring(const Check& check) {
   for (const Made& made : all_kinds) {
-    SCOPED_TRACE(testing::Message() << made.dimension << made.torsion << made.to_space << made.has_axis);
+    SCOPED_TRACE(::testing::Message() << made.dimension << made.torsion << made.to_space << made.has_axis);
     if (made.dimension == 2)
       check(with_spring(made), the_force<2, RotationalSpring<2>>, made);
     else
