@@ -53,7 +53,16 @@ std::string expected_array(const Shape& shape) {
   return "[" + shape.argument_name + "], each " + quantity_hint(shape.items[0].dimension);
 }
 
+/// A place of a beam, or one of a body.
+bool is_place_of_grip(const Shape& shape) {
+  return shape.kind == Kind::either && shape.items.size() == 3 && shape.items[0].kind == Kind::name &&
+         shape.items[1].kind == Kind::object && find_key(shape.items[1], "near");
+}
+
 std::string expected(const Shape& shape) {
+  if (is_place_of_grip(shape))
+    return "of a beam \"start\", \"end\" or " + expected(shape.items[1]) +
+           ", of a body the name of one of its points or " + expected(shape.items[2]);
   switch (shape.kind) {
     case Kind::object:
       return "an object with " + quoted_list(key_names(shape));
@@ -274,7 +283,8 @@ class Checker {
              item.choices.end();
     };
     const Shape &first = shape.items[0], &second = shape.items[1];
-    if (const std::string meant = is_place(shape) ? meant_place(value) : ""; !meant.empty())
+    const bool of_beam = is_place(shape) || (is_place_of_grip(shape) && value.is_number());
+    if (const std::string meant = of_beam ? meant_place(value) : ""; !meant.empty())
       return failed(path, "is " + json_kind(value) + meant + " Expected " + expected(shape));
     const bool is_text_with_unit =
         value.is_string() && first.kind == Kind::choice && second.kind == Kind::quantity && !has_it(first);

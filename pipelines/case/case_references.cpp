@@ -348,7 +348,8 @@ void check_brep(const CaseFile& c, Findings& findings) {
 }  // namespace
 
 void check_across(const Json& json, const CaseFile& case_file, Findings& findings) {
-  if (case_file.beams.empty() &&
+  const bool none = !json.contains("beams") || (json["beams"].is_array() && json["beams"].empty());
+  if (none &&
       std::ranges::none_of(case_file.bodies, [](const CaseBody& body) { return body.inertia.has_value(); }))
     findings.error("",
                    "\"beams\" is missing (the beams), and there are no rigid bodies, which move without one");

@@ -6,8 +6,8 @@ namespace nurbeam {
 
 void take_place(const Json& value, const std::string& path, CaseGrip& grip, Findings& findings) {
   if (!grip.beam.empty()) {
-    Json checked = value;
-    if (check_shape(shapes::place(), checked, path, findings)) take(checked, grip.at);
+    Json checked = value;  // an object has been checked already
+    if (value.is_object() || check_shape(shapes::place(), checked, path, findings)) take(checked, grip.at);
   } else if (grip.body.empty()) {
     findings.error(path, "is where on a beam or a body; a point in space has no such place");
   } else if (value.is_string()) {

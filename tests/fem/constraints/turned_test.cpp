@@ -59,7 +59,7 @@ void expect_closed(const BeamSystem& system) {
   system.constraints(turned, g);
   EXPECT_LT(g.norm(), 1e-11);
   system.constraints(turned_drawing(system, angle_now() + 0.2), g);
-  EXPECT_GT(g.norm(), 0.05);
+  EXPECT_GT(g.norm(), 0.02);
 }
 TEST(TurnedSupport, HoldsTheDrawingTurnedByItsAngle) {
   const Eigen::Vector3d along(1, 0.4, 0), axis(0.2, 1, 0.5);

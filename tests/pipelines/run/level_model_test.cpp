@@ -7,7 +7,7 @@
 namespace nurbeam {
 namespace {
 
-BuiltModel bar(int elements, const std::string& more = "") {
+BuiltModel divided_bar(int elements, const std::string& more = "") {
   const CaseFileReport read = read_case_text(R"json({"nurbeam": 1, "gravity": [0, -9.81, 0],
     "beams": [{"name": "bar", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"radius": 0.01},
                "material": {"density": 1150, "youngs_modulus": 5e6}, "elements": {"count": )json" +
@@ -22,7 +22,7 @@ BuiltModel bar(int elements, const std::string& more = "") {
 }
 
 TEST(LevelModel, HasEverySecondNode) {
-  const BuiltModel built = bar(12);
+  const BuiltModel built = divided_bar(12);
   const auto half = at_level(built, -1), quarter = at_level(built, -2), twice = at_level(built, 1);
   ASSERT_TRUE(half && quarter && twice);
   EXPECT_EQ(element_count(half->model), 6);
@@ -33,7 +33,7 @@ TEST(LevelModel, HasEverySecondNode) {
 }
 
 TEST(LevelModel, KeepsNodesOfSupports) {
-  const BuiltModel built = bar(14, R"(, {"beam": "bar", "at": {"length": 0.3}, "type": "pinned"})");
+  const BuiltModel built = divided_bar(14, R"(, {"beam": "bar", "at": {"length": 0.3}, "type": "pinned"})");
   const auto half = at_level(built, -1);
   ASSERT_TRUE(half);
   EXPECT_GE(half->model.beams[0].home_at(0.3), 0);
@@ -41,16 +41,16 @@ TEST(LevelModel, KeepsNodesOfSupports) {
 }
 
 TEST(LevelModel, OfAnOddNumberHasLessThanHalf) {
-  const auto half = at_level(bar(7), -1);
+  const auto half = at_level(divided_bar(7), -1);
   ASSERT_TRUE(half);
   EXPECT_EQ(element_count(half->model), 3);
   EXPECT_NEAR(half->model.beams[0].home[1].s, 1.0 / 3, 1e-12);
 }
 
 TEST(LevelModel, IsNotThereWithTooFewElements) {
-  EXPECT_FALSE(at_level(bar(5), -1));
-  EXPECT_TRUE(at_level(bar(6), -1));
-  EXPECT_FALSE(at_level(bar(6), -2));
+  EXPECT_FALSE(at_level(divided_bar(5), -1));
+  EXPECT_TRUE(at_level(divided_bar(6), -1));
+  EXPECT_FALSE(at_level(divided_bar(6), -2));
 }
 
 }  // namespace
