@@ -8,6 +8,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/case/quantity.h"
+#include "pipelines/case/shapes.h"
 #include "pipelines/diagnostics/closest_name.h"
 #include "pipelines/diagnostics/utf8_text.h"
 
@@ -57,6 +58,11 @@ std::string expected_array(const Shape& shape) {
 bool is_place_of_grip(const Shape& shape) {
   return shape.kind == Kind::either && shape.items.size() == 3 && shape.items[0].kind == Kind::name &&
          shape.items[1].kind == Kind::object && find_key(shape.items[1], "near");
+}
+
+const Shape& place_of_beam() {
+  static const Shape shape = shapes::place();
+  return shape;
 }
 
 std::string expected(const Shape& shape) {
@@ -218,7 +224,9 @@ class Checker {
       if (!value.contains(key.name)) continue;
       Json& item = value[key.name];
       const std::string at = child(path, key.name);
-      if (!(has_other_unit(value, key) ? check(in_other_unit(key), item, at) : check(key.shape, item, at)))
+      const bool of_beam = value.contains("beam") && is_place_of_grip(key.shape);
+      const Shape& own = of_beam ? place_of_beam() : key.shape;
+      if (!(has_other_unit(value, key) ? check(in_other_unit(key), item, at) : check(own, item, at)))
         item = nullptr;
     }
     return true;
@@ -413,10 +421,6 @@ class Checker {
 
 bool check_shape(const Shape& shape, Json& value, Findings& findings) {
   return Checker(findings, true).check(shape, value, "");
-}
-
-bool check_shape(const Shape& shape, Json& value, const std::string& path, Findings& findings) {
-  return Checker(findings, true).check(shape, value, path);
 }
 
 bool check_part(const Shape& shape, Json& value, Findings& findings) {

@@ -7,8 +7,6 @@ namespace nurbeam {
 /// unusable null (it has been reported), so that what is left can be checked further. Returns whether the
 /// value is usable.
 bool check_shape(const Shape& shape, Json& value, Findings& findings);
-/// The same of a part of the case, at this path.
-bool check_shape(const Shape& shape, Json& value, const std::string& path, Findings& findings);
 
 /// The same of a value that may become whole later, and whose files are not read: what it lacks is no error.
 bool check_part(const Shape& shape, Json& value, Findings& findings);

@@ -24,7 +24,7 @@ const std::string motion = R"("end_time": 1, "step": 2e-3)";
 
 // A bridge of 10 m, clamped at both ends; with torsion where sections are asked for.
 std::string bridge(double stiffness) {
-  return R"(, "beams": [{ "name": "bridge", "axis": { "polyline": [[0, 0, 0], [10, 0, 0]] }, "stress_free": "straight",
+  return R"(, "beams": [{ "name": "bridge", "axis": { "polyline": [[0, 0, 0], [10, 0, 0]] }, "stress_free": "straight", "torsion": true,
       "section": { "area": 1e-2, "second_moment": )" +
          std::to_string(stiffness / 2e11) + R"(, "torsion_constant": 1e-5 },
       "material": { "density": 1000, "youngs_modulus": 2e11, "poissons_ratio": 0.3 }, "elements": { "count": 20 } }],
@@ -121,7 +121,13 @@ TEST(RigidBodies, SayWhatIsWrongWithThem) {
       {Wrong{thin, "", motion, "is 1 more than the sum of the others"},
        Wrong{body(""), support(R"(, "at": "raer")"), motion, "has no point \"raer\"; did you mean \"rear\"?"},
        Wrong{body(""), "", still, "nothing holds body \"body\""},
-       Wrong{point_mass, support(R"(, "axis": [0, 1, 0])"), motion, "a point mass, which has none"},
+       Wrong{
+           point_mass,
+           R"(, "beams": [{ "name": "rail", "rigid": true, "axis": { "polyline": [[0, 1, 0], [1, 1, 0]] } }],
+                   "connectors": [{ "name": "spring", "type": "spring", "stiffness": 1, "from": { "body": "body" },
+                                    "to": { "point": [0, 0, 1] } }],
+                   "joints": [{ "between": [{ "body": "body" }, { "point": [0, 0, 0] }], "type": "rigid" }])",
+           motion, "a point mass, which has none"},
        Wrong{body(R"(, "turned": { "axis": [0, 1, 0], "angle": 30 })"),
              support(R"(, "at": "rear", "axis": [1, 0, 0])"), motion, "which \"turned\" takes"},
        Wrong{
