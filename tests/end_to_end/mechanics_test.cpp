@@ -381,7 +381,7 @@ TEST(Connectors, ThatCannotBeAreRefused) {
   refused({"connectors[0].force=-5"}, "connectors[0].force: is -5 N, a push, but \"tension-only\" pulls");
   refused({"stops=[{\"beam\": \"post\", \"at\": \"end\"}]"},
           "stops[0].beam: names \"post\", on which no body slides");
-  refused({"supports[0].direction=[1, 0, 0]"}, "is for the type \"guided\" only");
+  refused({R"(supports[0].type="pinned")", "supports[0].direction=[1, 0, 0]"}, "is of supports that slide");
   refused({"supports[0].type=guided"}, "\"guided\" needs the \"direction\"");
 }
 
