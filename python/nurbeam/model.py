@@ -653,14 +653,15 @@ class Model:
         Keywords are the keys of `analysis` in the case file (`type`, `end_time`, `step`, `tolerance`, `initial`,
         `load_steps`, `integrator`, ...). They replace those of the case, which do not count for another `type`. `every`
         is the time between snapshots. With `out` the run writes a results directory, as the command line does; `resume`
-        continues from the checkpoint there. Otherwise the results are in memory only. `progress` shows a bar, by tqdm; when omitted on a terminal.
+        continues from the checkpoint there. Otherwise the results are in memory only. `progress` shows a bar, by tqdm;
+        when omitted on a terminal.
 
         `accuracy=True` estimates the errors of mesh and step, `accuracy="1 %"` refines both until they are below it:
         `results.accuracy`. A target that is not reached is a warning.
 
         CaseError for a model that cannot be one, RunError (with the `results` until then) where the run ends before its
         end; Ctrl-C ends it with KeyboardInterrupt. Other threads go on meanwhile."""
-        keys = {"end_time": end_time, "step": step, **analysis}
+        keys: dict[str, Any] = {"end_time": end_time, "step": step, **analysis}
         if isinstance(analysis.get("accuracy"), (str, float)):
             keys["accuracy"] = {"target": analysis["accuracy"]}
         built, findings = self._built(keys, every)
