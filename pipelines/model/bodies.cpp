@@ -70,6 +70,11 @@ void add_bodies(const ResolvedCase& resolved, const ModelFrame& frame, BeamModel
     if (from.inertia) {
       body.rigid = rigid_body(from, frame);
       if (from.position) body.position = turned_position(from, *body.rigid, frame);
+      if (from.rotor.inertia > 0 && resolved.analysis.has_modes())
+        findings.error(
+            from.path + ".rotor",
+            "turns modes forwards and backwards, which they do not count yet; leave it out, or run a "
+            "motion");
     }
     model.bodies.push_back(std::move(body));
     if (from.roll_inertia > 0 && !follows_section(resolved, from.name))
