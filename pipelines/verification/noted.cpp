@@ -1,5 +1,6 @@
 #include "pipelines/verification/noted.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,30 @@ namespace {
 // A problem runs on one thread.
 thread_local Features found;
 
+bool is_smooth_force(const HomeNode& node) {
+  return node.kind == NodeKind::smooth && !node.sharp && (node.kept || node.hold != Hold::nothing);
+}
+
+bool has_smooth_forces(const BeamModel& model) {
+  const auto is_smooth_inside = [&](const Rider& rider) {
+    const Beam& beam = model.beams[rider.beam];
+    return !beam.rigid && rider.continuous_slope && !rider.reel && rider.s > 0 &&
+           rider.s < beam.curve.length();
+  };
+  const auto is_load_inside = [&](const Force& force) {
+    const auto* load = std::get_if<PointLoad>(&force);
+    if (!load) return false;
+    const Beam& beam = model.beams[load->beam];
+    return !beam.rigid && load->s > 0 && load->s < beam.curve.length();
+  };
+  return std::ranges::any_of(model.riders, is_smooth_inside) ||
+         std::ranges::any_of(model.forces, is_load_inside) ||
+         std::ranges::any_of(model.beams, [](const Beam& beam) {
+           return !beam.rigid && beam.home.size() > 2 &&
+                  std::any_of(beam.home.begin() + 1, beam.home.end() - 1, is_smooth_force);
+         });
+}
+
 }  // namespace
 
 Features take_noted() { return std::exchange(found, {}); }
@@ -25,6 +50,11 @@ ProblemLevel& problem_level() {
 }
 
 BeamModel noted(const BeamModel& model) {
+  problem_level().by_hand = true;
+  return noted_for_run(model);
+}
+
+BeamModel noted_for_run(const BeamModel& model) {
   note(features_of(model));
   ProblemLevel& at = problem_level();
   std::optional<BeamModel> made = model_at_level(model, at.level);
@@ -34,13 +64,23 @@ BeamModel noted(const BeamModel& model) {
   for (const Beam& beam : made->beams)
     if (!beam.rigid && (at.fewest_elements == 0 || beam.home_intervals() < at.fewest_elements))
       at.fewest_elements = beam.home_intervals();
+  at.has_jumps = at.has_jumps || has_smooth_forces(*made);
   return std::move(*made);
 }
 
 SimulationOptions at_problem_level(SimulationOptions options) {
   ProblemLevel& at = problem_level();
-  at.moves = at.moves || !options.statics;
-  if (options.step) *options.step *= std::exp2(-at.level);
+  if (options.statics) return options;
+  at.moves = true;
+  if (options.step) {
+    *options.step *= std::exp2(-at.level);
+  } else if (at.given) {
+    if (at.steps.size() >= at.given->size()) throw std::runtime_error("there are more runs than before");
+    const std::shared_ptr<LevelSteps> steps = (*at.given)[at.steps.size()];
+    std::visit([](auto& method) { method.tolerance = 0; }, options.integrator);
+    options.given_step = [steps, beside = at.beside](double time) { return steps->at(time, beside); };
+  }
+  if (!options.step) at.steps.push_back(std::make_shared<LevelSteps>(options.output_times));
   return options;
 }
 
@@ -57,6 +97,11 @@ std::vector<std::string> numbered(std::size_t count, const std::string& what) {
 void keep_numbers(const std::vector<Snapshot>& frames, const SimulationReport& report) {
   ProblemLevel& at = problem_level();
   if (!at.keeps_numbers || frames.empty()) return;
+  if (!at.steps.empty()) {
+    for (const Snapshot& frame : frames)
+      for (const StepRecord& step : frame.steps) at.steps.back()->add(step);
+    at.steps.back()->end();
+  }
   const Snapshot& first = frames.front();
   LevelRecorder recorder({.probes = numbered(first.probes.size(), "probe"),
                           .bodies = numbered(first.bodies.size(), "body"),
