@@ -151,6 +151,13 @@ Vector3d air_drag(const BeamSystem& system, const State& state, int body) {
   return state.load * model.air.density / 2 * model.bodies[body].drag_area * w.norm() * w;
 }
 
+/// Whether what a constraint gives comes from outside of beams and bodies.
+bool is_held_by_space(const Constraint& constraint) {
+  const auto* joint = std::get_if<BodyJoint>(&constraint);
+  return std::holds_alternative<Support>(constraint) || std::holds_alternative<HeldBody>(constraint) ||
+         (joint && joint->to.is_point());
+}
+
 /// Weight, loads and reactions at a moment.
 Loads external_forces(const BeamSystem& system, const State& state) {
   Loads loads;
@@ -187,9 +194,8 @@ Loads external_forces(const BeamSystem& system, const State& state) {
   for (const Beam& beam : model.beams) length += beam.curve.length();
   for (int i = 0; i < static_cast<int>(model.constraints.size()); ++i) {
     const auto [force, couple] = reaction(system, state, state.lambda, i);
-    loads.largest = std::max(loads.largest, couple.norm() / length);  // as a pair of forces
-    if (std::holds_alternative<Support>(model.constraints[i]) ||
-        std::holds_alternative<HeldBody>(model.constraints[i]))
+    if (length > 0) loads.largest = std::max(loads.largest, couple.norm() / length);  // as a pair of forces
+    if (is_held_by_space(model.constraints[i]))
       loads.add(force);
     else
       loads.largest = std::max(loads.largest, force.norm());  // between beams
