@@ -40,5 +40,18 @@ TEST(ShortSteps, AreNoneOfAPointOrWhereStepsAreShortAnyway) {
   }
 }
 
+// A force and a moment that fall to nothing within 0.1 ms, or a tenth of that more or less, between steps of
+// 1.25 ms: the accelerations that this leaves are not those of the next step.
+TEST(ShortSteps, KeepTheEnergyWhereALoadEndsWithinAStep) {
+  for (const std::string end : {"2.5001", "2.50009", "2.50011", "2.50013", "2.5002"}) {
+    const std::string rows = "time=[[0,1],[2.5,1],[" + end + ",0]]";
+    const CaseRun run =
+        run_file(test::source_directory() / "tests/cases/load_ends_within_a_step.json",
+                 {"analysis.end_time=3", "output.report=false", "loads[0]." + rows, "loads[1]." + rows});
+    EXPECT_EQ(run.code, 0) << end << ": " << run.messages;
+    EXPECT_FALSE(run.says("total energy")) << end << ": " << run.messages;
+  }
+}
+
 }  // namespace
 }  // namespace nurbeam::test

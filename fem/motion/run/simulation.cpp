@@ -343,12 +343,20 @@ struct Simulation::Implementation {
   // Jumps over a jump of tables or of a force, which no step can resolve: the motion goes on after it.
   bool pass_jump() {
     const double after = end_of_jump(kinks_, run_.at.state.t, run_.resolution());
-    if (after == run_.at.state.t || is_over()) return true;
+    if (is_over()) return true;
+    if (after == run_.at.state.t) return !has_passed_ramp() || run_.restart();
     run_.change([after](MeshedState& at) {
       at.state.t = after;
       return true;
     });
     return pass_kink(run_) && release_bodies(run_) && run_.restart();
+  }
+
+  // Whether the last step was a small part of the fixed ones, over a ramp that they do not resolve. It leaves
+  // accelerations of motions that are too fast for them.
+  bool has_passed_ramp() const {
+    constexpr double small = 0.25;
+    return run_.options.step && run_.last_step < small * *run_.options.step;
   }
 
   double next_kink() const {
