@@ -168,6 +168,35 @@ TEST(Process, SoIsOneWithMoreRowsOfHistoriesThanFrames) {
   check_killed_runs("--set output.histories_every=1.7e-4");
 }
 
+// Runs at other levels are kept as they end, and the last of them is killed most likely.
+TEST(Process, ARefinementThatIsKilledAndResumedHasTheErrorsOfOneWithoutABreak) {
+  const TemporaryDirectory directory;
+  const auto whole = directory.path() / "whole", cut = directory.path() / "cut";
+  const auto refined = [](const std::filesystem::path& out) {
+    return "run " + test::sample("falling_beam/falling_beam.json").string() +
+           " --quiet --accuracy 1% --set beams[0].elements.count=20 --set analysis.step=5e-4 "
+           "--set analysis.end_time=0.5 --set output.every=0.01 --set output.report=false --out " +
+           out.string();
+  };
+  const auto start = std::chrono::steady_clock::now();
+  Process uninterrupted(directory, refined(whole));
+  const int code = uninterrupted.code();
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  ASSERT_TRUE(code == done || code == 3) << uninterrupted.messages();
+  for (const double part : {0.5, 0.9}) {
+    const bool resumes = std::filesystem::exists(cut / "restart.nc");
+    Process run(directory, refined(cut) + (resumes ? " --resume" : ""));
+    std::this_thread::sleep_for(part * time);
+    run.send(SIGKILL);
+    (void)run.code();
+  }
+  const bool resumes = std::filesystem::exists(cut / "restart.nc");
+  Process last(directory, refined(cut) + (resumes ? " --resume" : ""));
+  EXPECT_EQ(last.code(), code) << last.messages();
+  for (const char* file : {"histories.csv", "errors.csv"})
+    EXPECT_EQ(content_of(cut / file), content_of(whole / file)) << file;
+}
+
 TEST(Process, AnInterruptedRunIsResumedByItsOwnCaseOnly) {
   const TemporaryDirectory directory;
   const auto out = directory.path() / "results";
