@@ -103,17 +103,18 @@ void keep_numbers(const std::vector<Snapshot>& frames, const SimulationReport& r
     at.steps.back()->end();
   }
   const Snapshot& first = frames.front();
-  LevelRecorder recorder({.probes = numbered(first.probes.size(), "probe"),
-                          .bodies = numbered(first.bodies.size(), "body"),
-                          .beams = numbered(first.beams.size(), "beam"),
-                          .reactions = numbered(first.reactions.size(), "reaction"),
-                          .connectors = numbered(first.connectors.size(), "connector"),
-                          .measures = {}});
+  const SnapshotNames names{.probes = numbered(first.probes.size(), "probe"),
+                            .bodies = numbered(first.bodies.size(), "body"),
+                            .beams = numbered(first.beams.size(), "beam"),
+                            .reactions = numbered(first.reactions.size(), "reaction"),
+                            .connectors = numbered(first.connectors.size(), "connector"),
+                            .measures = {}};
+  LevelRecorder recorder(names);
   for (Snapshot frame : frames) {
     frame.measures.clear();
     recorder.look_at(frame);
   }
-  at.numbers.push_back(recorder.numbers(report));
+  at.runs.push_back({recorder.numbers(report), history_quantities(history_columns(names))});
 }
 
 }  // namespace nurbeam::verification

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipelines/accuracy/level_numbers.h"
+#include "pipelines/accuracy/quantities.h"
 #include "pipelines/model/features.h"
 #include "pipelines/run/level_steps.h"
 
@@ -43,7 +44,11 @@ struct ProblemLevel {
   bool by_hand = false;     ///< whether a model was computed with otherwise than by a run
   bool has_jumps = false;   ///< whether elements are smooth across a force inside a beam
   StepsOfRuns steps = {};
-  std::vector<LevelNumbers> numbers = {};
+  struct Kept {
+    LevelNumbers numbers;
+    std::vector<HistoryQuantity> quantities;
+  };
+  std::vector<Kept> runs = {};
 };
 ProblemLevel& problem_level();
 
