@@ -94,17 +94,16 @@ Shape analysis_shape() {
   const Shape modes = object(
       {{"count", integer({.lower = 1, .upper = 1000}), "how many, from the lowest on; 10 when omitted"},
        {"about", choice({"equilibrium", "drawn"}),
-        "the state: in equilibrium under all loads, for buckling under gravity; or as drawn, without loads; "
+        "the state: in equilibrium under all loads, for buckling under gravity; or in the reference configuration, without loads; "
         "equilibrium when omitted"},
        {"bodies", choice({"held", "free"}),
-        "sliding bodies are held at their `at`, or slide without friction, about where they rest; held when "
+        "sliding bodies are locked at their `at`, or slide without friction, about their equilibrium; held when "
         "omitted"}});
   const Shape accuracy = object(
       {{"target", quantity(Dimension::part, accuracy_target_range()),
         "refines elements and steps until the errors of what is asked are below this part of their scales"},
        {"of", array(any_text(), 1),
-        "columns, extremes (\"max(trolley.speed)\"), events whose errors count; when omitted places, displacements, "
-        "speeds, reactions, connectors' forces, frequencies and the greatest axial force and moment of each beam"},
+        "columns, extremes (\"max(trolley.speed)\"), events whose errors count; when omitted positions, displacements, speeds, reactions, connectors' forces, frequencies and the maximum axial force and moment of each beam"},
        {"limit", quantity(Dimension::number, {.lower = 1, .upper = 1e6}),
         "most work, over that of the plain run; 64 when omitted"}});
   return object(
@@ -113,7 +112,7 @@ Shape analysis_shape() {
         "buckles; dynamic when omitted"},
        {"modes", modes, "of modes and buckling"},
        {"initial", choice({"as-drawn", "equilibrium"}),
-        "state at time 0; equilibrium: statics first, sliding bodies held at their `at`; as-drawn "
+        "state at time 0; equilibrium: statics first, sliding bodies locked at their `at`; as-drawn "
         "when omitted"},
        {"end_time", quantity(Dimension::time, plausible(1e-9, 1e9)),
         "end of the motion; a dynamic analysis needs it"},
@@ -121,7 +120,7 @@ Shape analysis_shape() {
        {"tolerance",
         quantity(Dimension::number,
                  {.lower = 1e-14, .upper = 1, .reason = "less is round-off, more no accuracy"}),
-        "local error of adaptive steps; when nothing is said 1e-4, or 1e-6 where all beams are rigid guides"},
+        "local error of adaptive steps; 1e-4 when omitted, or 1e-6 where all beams are rigid curves"},
        {"load_steps",
         either(integer({.lower = 1, .upper = 10000}), array(quantity(Dimension::number, not_negative()), 1)),
         "of a static analysis: the state under each of these factors of the loads (weight is always there "

@@ -28,12 +28,12 @@ Shape distribution() {
        {"sd", measured(), "standard deviation", required}});
   Shape three = array(measured(), 3);
   three.most_items = 3;
-  return object({{"uniform", pair_of(measured()), "[least, greatest]"},
+  return object({{"uniform", pair_of(measured()), "[minimum, maximum]"},
                  {"normal", moments, "of Gauss"},
                  {"lognormal", moments, "its logarithm is normal; mean and sd are those of the value itself"},
-                 {"triangular", three, "[least, most likely, greatest]"},
-                 {"gumbel", moments, "of greatest values"},
-                 {"weibull", moments, "of least values, from 0"},
+                 {"triangular", three, "[minimum, most likely, maximum]"},
+                 {"gumbel", moments, "of maximum values"},
+                 {"weibull", moments, "of minimum values, from 0"},
                  {"lower", measured(), "cut off below this"},
                  {"upper", measured(), "cut off above this"}},
                 {{{"uniform", "normal", "lognormal", "triangular", "gumbel", "weibull"}, required}});
@@ -70,7 +70,7 @@ Shape variable() {
              {"scale", scale, "scaled by the value"}},
             {{{"translate", "place", "rotate", "scale"}, required}}),
         "moves control points of the beam's curve together"},
-       {"range", pair_of(measured()), "[least, greatest]: any value between, with equal chances"},
+       {"range", pair_of(measured()), "[minimum, maximum]: any value between, with equal chances"},
        {"distribution", distribution(), "how its values are scattered"},
        {"value", any_text(), "an expression of other variables"},
        {"nominal", measured(),

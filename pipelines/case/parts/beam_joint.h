@@ -43,11 +43,12 @@ inline Fields<CaseBeamJoint> beam_joint_fields() {
                       }),
           field(
               &J::axis, "axis", vector(Dimension::number),
-              "as drawn, of a hinge between beams with torsion or of a rigid body, which turn about it alone; of "
+              "in the reference configuration, of a hinge between beams with torsion or of a rigid body, which turn about it alone; of "
               "what slides its direction"),
-          field_by<J>("axes", axes,
-                      "of a universal joint: one of the first body, one of what it is joined to, as drawn",
-                      [](const Json&, const std::string&, J&, Findings&) {}),
+          field_by<J>(
+              "axes", axes,
+              "of a universal joint: one of the first body, one of what it is joined to, in the reference configuration",
+              [](const Json&, const std::string&, J&, Findings&) {}),
           slope_field(&J::slope),
           field(&J::name, "name", name(), "heads the columns of its forces"),
       },

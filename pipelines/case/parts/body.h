@@ -54,7 +54,8 @@ inline Fields<CaseRotor> rotor_fields() {
   using namespace shapes;
   using R = CaseRotor;
   return {{
-      field(&R::axis, "axis", direction(), "of its spin, as drawn, by the right hand").needed(),
+      field(&R::axis, "axis", direction(), "of its spin, in the reference configuration, by the right hand")
+          .needed(),
       field(&R::inertia, "inertia", quantity(Dimension::inertia, positive()), "about that axis").needed(),
       field(&R::speed, "speed", quantity(Dimension::angular_speed, plausible(-1e6, 1e6)),
             "of its spin against the body")

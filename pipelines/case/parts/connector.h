@@ -38,7 +38,7 @@ inline Fields<CaseConnectorEnd> connector_end_fields() {
   std::string E::*const beam = &E::beam, E::*const body = &E::body;
   std::optional<Eigen::Vector3d> E::*const fixed = &E::point;
   return {{
-              field(beam, "beam", name(), "a beam, at the place `at`"),
+              field(beam, "beam", name(), "a beam, at the position `at`"),
               slope_field(&E::slope).beside("beam"),
               field(body, "body", name(), "a body"),
               field(fixed, "point", point(), "a point that stays where it is"),
@@ -99,8 +99,7 @@ inline Fields<CaseConnector> connector_fields() {
               .measured_where("type", "rotational", Dimension::rotational_damping),
           field_by<C>(
               "length", either(choice({"drawn", "as-drawn"}), quantity(Dimension::length, plausible(0, 1e9))),
-              "free length, of a rod its length; drawn: the distance of its ends as drawn; as-drawn: that "
-              "for which its first end stands where it is drawn when all is in equilibrium; drawn when "
+              "free length, of a rod its length; drawn: the distance of its ends in the reference configuration; as-drawn: that for which its first end has its reference position in equilibrium; drawn when "
               "omitted",
               [](const Json& json, const std::string&, C& connector, Findings&) {
                 if (is_number(json))

@@ -20,8 +20,7 @@ struct CaseGrip {
 void take_place(const Json& value, const std::string& path, CaseGrip& grip, Findings& findings);
 
 inline constexpr const char* place_of_grip_help =
-    "where on the beam; of a rigid body the name of one of its points, or a point of it as drawn, its centre of "
-    "mass when omitted";
+    "where on the beam; of a rigid body the name of one of its points, or a point of it in the reference configuration, its centre of mass when omitted";
 
 /// The rows of a grip by itself.
 inline Fields<CaseGrip> grip_fields() {
@@ -30,7 +29,7 @@ inline Fields<CaseGrip> grip_fields() {
     take_place(json, path, grip, findings);
   };
   return {{
-              field(&CaseGrip::beam, "beam", name(), "a beam, at the place `at`"),
+              field(&CaseGrip::beam, "beam", name(), "a beam, at the position `at`"),
               field(&CaseGrip::body, "body", name(), "a body"),
               field(&CaseGrip::point, "point", point(), "a point that stays where it is"),
               field_by<CaseGrip>("at", place_of_grip(), place_of_grip_help, take_at),

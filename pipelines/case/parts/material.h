@@ -59,7 +59,7 @@ inline Fields<CaseMaterial> material_fields() {
               "axial force over stretch, where strains are large. green: N = EA (L^3 - L)/2 of the stretched over "
               "the unstressed length L, as in the papers; hooke: N = EA (L - 1); rows [L - 1, N] of force over "
               "stretch, both of which increase: smooth between the rows, straight beyond them; bending and "
-              "damping go by youngs_modulus; green when omitted",
+              "damping use youngs_modulus; green when omitted",
               [](const Json& json, const std::string& path, M& material, Findings& findings) {
                 material.law = axial_law(json, path, findings);
               }),

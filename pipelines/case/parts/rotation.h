@@ -10,10 +10,11 @@ namespace nurbeam {
 struct CaseRotation {
   std::string path;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> about = {};  ///< a point of the axis [m]; the held place when omitted
-  std::optional<double> speed = {};           ///< [rad/s]
-  double ramp = 0;                            ///< time in which the speed is reached, from rest [s]
-  TimeTable table = {};                       ///< [rad]; empty: none
+  std::optional<Eigen::Vector3d> about =
+      {};                            ///< a point of the axis [m]; the supported position when omitted
+  std::optional<double> speed = {};  ///< [rad/s]
+  double ramp = 0;                   ///< time in which the speed is reached, from rest [s]
+  TimeTable table = {};              ///< [rad]; empty: none
   RowJoin join = RowJoin::smooth_at_rest;
 };
 
@@ -24,8 +25,9 @@ inline Fields<CaseRotation> rotation_fields() {
       {
           field(&R::axis, "axis", vector(Dimension::number), "direction of the axis, by the right hand")
               .needed(),
-          field(&R::about, "about", point(),
-                "a point of the axis, about which the place goes round too; the held place when omitted"),
+          field(
+              &R::about, "about", point(),
+              "a point of the axis, about which the support goes round too; the supported position when omitted"),
           field_by<R>(
               "table", table(Dimension::angle, plausible(-1e9, 1e9)),
               "angle over time since the drawing: rows [time, angle]; smooth between them, with a "

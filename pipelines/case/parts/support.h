@@ -32,8 +32,7 @@ inline Fields<CaseSupport> support_fields() {
           field(&S::body, "body", name(), "the supported body"),
           field_by<S>(
               "at", place_of_grip(),
-              "where; of a rigid body the name of one of its points, or a point of it as drawn, its centre of "
-              "mass when omitted",
+              "where; of a rigid body the name of one of its points, or a point of it in the reference configuration, its centre of mass when omitted",
               [](const Json& json, const std::string& path, S& support, Findings& findings) {
                 CaseGrip grip{.body = support.body, .beam = support.beam};
                 take_place(json, path, grip, findings);
@@ -45,7 +44,7 @@ inline Fields<CaseSupport> support_fields() {
                {"pinned", S::Type::pinned},
                {"fork", S::Type::fork},
                {"guided", S::Type::guided}},
-              "clamped: position and direction are held, with torsion the section; pinned: the position; fork: "
+              "clamped: position and direction are fixed, with torsion the section; pinned: the position; fork: "
               "position and roll of a beam with torsion; guided: the position but along `direction`, where it is "
               "free")
               .needed(),
@@ -73,7 +72,7 @@ inline Fields<CaseSupport> support_fields() {
           field(&S::name, "name", name(), "heads the columns of its reaction"),
           field(
               &S::motion, "motion", vector_table(Dimension::length, plausible(-1e9, 1e9)),
-              "moves the support from its drawn place: rows [time, dx, dy, dz]; smooth between them, with a continuous "
+              "moves the support from its reference position: rows [time, dx, dy, dz]; smooth between them, with a continuous "
               "speed and acceleration, at rest at the first and the last; in statics linear"),
           choice_field(&S::motion_join, "interpolation",
                        {{"smooth", RowJoin::smooth_at_rest}, {"linear", RowJoin::linear}},
