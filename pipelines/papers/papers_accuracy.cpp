@@ -141,7 +141,7 @@ void write_accuracy(Page& page, std::ostream& progress) {
   page.heading("Accuracy in motion");
   page.paragraph(
       "The errors of three ways and, to part the element from its events, of ALE-ANCF with our thresholds, "
-      "projected velocities and kept energy. The chains have tangent-continuous joints at which the drawn "
+      "projected velocities and conserved energy. The chains have tangent-continuous joints at which the drawn "
       "curvature jumps; all ways pass them in the same manner (see [theory](theory.md)). What an event does "
       "depends on its moment: a single run on a coarse mesh may be lucky or not, so that each error is the "
       "rms "

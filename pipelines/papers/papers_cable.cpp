@@ -51,7 +51,7 @@ void write_path(Page& page, const Run& kinked, const std::vector<references::Pla
       places, [](const auto& p) { return p.x; }, [](const auto& p) { return p.y; }));
   page.figure("example-2-cable", shapes,
               "No bending stiffness, drawn at 0.02 EA, discontinuous slope at the mass; step 0.0002 s; the "
-              "marks are the reference's places of the mass");
+              "marks are the reference's positions of the mass");
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ void write_cable(Page& page, std::ostream& progress) {
   progress << "papers: Example 2 as a cable\n";
   page.paragraph(
       "The paper's sliding joint has slope vectors of its own on both sides (its Fig. 6), and shows no example "
-      "that needs them. Here is one: Example 2 without bending stiffness, pulled as drawn by 0.02 EA, so that "
-      "the mass hangs in a kink. The reference is a program of its own, linear elements that move with the mass "
+      "that needs them. Here is one: Example 2 without bending stiffness, pretensioned by 0.02 EA, so that "
+      "the mass hangs at a slope discontinuity. The reference is a program of its own, linear elements that move with the mass "
       "on both sides, to 1e-6 m. Where slopes are continuous, nothing resists the sharp bend that an element then makes "
       "under the mass: such runs end early or are wrong.");
   const std::vector<references::Place> places = references::suspended_cable();

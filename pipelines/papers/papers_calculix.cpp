@@ -39,7 +39,7 @@ void write_calculix(Page& page, const PendulumMotion& spatial, const PendulumMot
                 {"64 elements, material curvature", material.t, material.AB, PlotLine::Style::dashed}};
   page.figure(
       "pendulum_fig17", plot,
-      "Fig. 17 of [S] is of ABAQUS B31, which is not to be had here. In its place stand CalculiX's beams, "
+      "Fig. 17 of [S] is of ABAQUS B31, which is not to be had here. CalculiX's beams stand for it, "
       "quadratic, expanded to solids and so flexible in shear; tests/calculix/pendulum.py makes the numbers");
   page.table(
       "The distance |AB| of CalculiX, and of 64 elements less that, by both curvatures; last, of 32 elements "
@@ -61,7 +61,7 @@ void write_calculix(Page& page, const PendulumMotion& spatial, const PendulumMot
       number(off_spatial, 2) + " m here.");
   page.status(
       {"[S] Fig. 17", "[number of elements](#number-of-elements)",
-       "ABAQUS not to be had; CalculiX's beams in its place",
+       "ABAQUS not to be had; CalculiX's beams instead",
        number(off_spatial, 2) + " m in \\|AB\\| (spatial), " + number(off_material, 2) + " m (material)"});
 }
 

@@ -53,14 +53,14 @@ BeamModel line_arc_spline(int elements) {
 }  // namespace
 
 Example line_arc_line_example() {
-  return {"Line, arc, line", [](int elements) { return line_arc_line(elements, 0.3); }, 1.5, "as drawn"};
+  return {"Line, arc, line", [](int elements) { return line_arc_line(elements, 0.3); }, 1.5, "curved"};
 }
 
-Example line_arc_spline_example() { return {"Line, arc, spline", line_arc_spline, 1.5, "as drawn"}; }
+Example line_arc_spline_example() { return {"Line, arc, spline", line_arc_spline, 1.5, "curved"}; }
 
 Example reversing_example() {
   return {"Line, arc, line, and back", [](int elements) { return line_arc_line(elements, 0.8); }, 2.0,
-          "as drawn"};
+          "curved"};
 }
 
 }  // namespace nurbeam::papers

@@ -129,7 +129,7 @@ void write_trajectories(Page& page, const std::vector<MethodRuns>& all) {
                    " m (ALE-ANCF), 40 elements, from the references at " + instants(places)});
   page.paragraph(
       "The paper says that both its models converge and that with 40 elements they are almost "
-      "identical; here with 40 elements the paper's rule is within " +
+      "identical. Here with 40 elements the paper's rule is within " +
       number(at_40(0), 2) + " m of the references, ALE-ANCF within " + number(at_40(1), 2) +
       " m, ours within " + number(at_40(2), 2) +
       " m. That is at the given instants, the last 0.2 s before the mass leaves. When it leaves is found as an "
@@ -169,12 +169,12 @@ void write_event_counts(Page& page, const MethodRuns& rule) {
   page.table(
       statement(falling_beam_example(), {rule.method}, pace) +
           "; events of length control to the mass's leaving or to 0.75 s, without those near the beam's "
-          "end, where the mass is carried as a point",
+          "end, where the mass is a point on a fixed mesh",
       {"elements", "events by the paper's Table 1", "merges by its Table 2 (size / 3)",
        "here, in the first 2 ms", "merges after that", "splits after that", "all"},
       rows);
   page.paragraph(
-      "The paper's two tables do not agree with each other: each merge gives three weights, so that Table 2 "
+      "The paper's two tables do not agree with each other. Each merge gives three weights, so that Table 2 "
       "says how many there were, and on " +
       std::to_string(static_cast<int>(counts.size()) - agree) + " of " + std::to_string(counts.size()) +
       " meshes that is more than Table 1 has events at all. With 5 elements the mass starts half an element "
@@ -220,7 +220,7 @@ void write_times(Page& page, const std::vector<MethodRuns>& all) {
                  number(paper_times.back().length_control / paper_times.back().motion, 2) +
                  " times the time of motion in the paper, " + share(all[0].runs.back().report) +
                  " times here with the paper's rule and " + share(all[2].runs.back().report) +
-                 " times with ours, which brings the energy back at every event. Times are the least of " +
+                 " times with ours, which brings the energy back at every event. Times are the minimum of " +
                  std::to_string(timed_runs) + " runs.");
   write_event_counts(page, all[0]);
 }
@@ -273,9 +273,9 @@ void write_weights(Page& page, const MethodRuns& rule) {
   page.paragraph(
       "As in the paper the weights tend to 1 with the number of elements: σ falls from " + number(first, 2) +
       " to " + number(last, 2) +
-      " (paper: 0.27 to 0.04). Extremes and σ are not matched digit by digit: they come from single events, "
+      " (paper: 0.27 to 0.04). Extremes and σ are not matched digit by digit. They come from single events, "
       "which move with step, form and the tolerance of the pseudo-inverse (1e-2 here, not stated in the "
-      "paper), and the paper's form P takes the mass off the beam at another time.");
+      "paper). The paper's form P takes the mass off the beam at another time.");
 }
 
 void write_event_shapes(Page& page, const std::vector<MethodRuns>& all) {

@@ -386,11 +386,11 @@ class Study {
                   ": generalized-α, step 0.5 ms, without the metric. " +
                   (c == 0
                        ? std::string(
-                             "[S] finds that the place of the division hardly matters for r1; here the error is ") +
+                             "[S] finds that the position of the division hardly matters for r1; here the error is ") +
                              number(*std::min_element(errors.y.begin(), errors.y.end()), 1, false) + " to " +
                              number(*std::max_element(errors.y.begin(), errors.y.end()), 1, false) +
-                             " m over the places."
-                       : "As in [S], the curves differ with the place; here none follows the fine run."));
+                             " m over the positions."
+                       : "As in [S], the curves differ with the position; here none follows the fine run."));
       }
     figure(
         "pendulum_fig19_error", error,

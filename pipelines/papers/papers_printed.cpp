@@ -132,7 +132,7 @@ void write_limits(Page& page, const PendulumMotion& fine) {
   }
 }
 
-// Largest differences from the fine run over the place of the division of two elements.
+// Largest differences from the fine run over the position of the division of two elements.
 struct Range {
   double least = HUGE_VAL, largest = 0;
   int lost = 0;
@@ -162,9 +162,9 @@ void write_places(Page& page, const PendulumMotion& fine) {
                       std::to_string(range.lost)});
     }
   page.table(
-      "Two elements, nine places of their division, k from -0.4 to 0.4 m (Fig. 19 of [S]): largest difference "
-      "in |AB| over 1 s from the fine run with the metric, the least and the largest of the nine; RK4, 0.5 ms",
-      {"curvature", "element", "least [m]", "largest [m]", "unstable runs"}, rows);
+      "Two elements, nine positions of their division, k from -0.4 to 0.4 m (Fig. 19 of [S]): largest difference "
+      "in |AB| over 1 s from the fine run with the metric, the minimum and the maximum of the nine; RK4, 0.5 ms",
+      {"curvature", "element", "minimum [m]", "maximum [m]", "unstable runs"}, rows);
 }
 
 }  // namespace
@@ -175,7 +175,7 @@ void write_printed_pendulum(Page& page, const PendulumMotion& fine) {
       "Eq. 23 of [S] is κ = |r_xx|: no sign, and a curvature only where |r_x| stays 1. Here are its Eqs. 20-24 "
       "to the letter, without the metric, and the same with the spatial curvature, which all else on this page "
       "takes. As the arc straightens and bends the other way, |r_xx| falls to zero and grows again. The "
-      "energy has a kink there and the force jumps, so that Gauss points and steps decide what the motion "
+      "energy has a corner there and the force jumps, so that Gauss points and steps decide what the motion "
       "is.");
   write_steps(page, fine);
   const Findings found = write_meshes(page, fine);
@@ -197,7 +197,7 @@ void write_printed_pendulum(Page& page, const PendulumMotion& fine) {
       number(found.eight_to_fine[0], 2) + " m off with Eq. 23 (" + can(found.eight_to_fine[0] < seen) +
       "), " + number(found.eight_to_fine[1], 2) + " m with the spatial curvature (" +
       can(found.eight_to_fine[1] < seen) +
-      "). Figs. 19 and 21, results that depend on parameter and place of the division: they do with either "
+      "). Figs. 19 and 21, results that depend on parameter and position of the division: they do with either "
       "curvature, for the metric is missing in both. So nothing in the four figures needs Eq. 23, and " +
       std::to_string((found.six_to_eight[0] >= seen) + (found.eight_to_fine[0] >= seen)) +
       " of the first two speaks against its having been used as printed. Where a run is unstable, RK4's step is too "

@@ -42,16 +42,12 @@ Method ale_ancf() {
           .control = papers_thresholds};
 }
 
-Example falling_beam_example() {
-  return {"Example 1", verification::falling_beam, 0.7, "straight (as drawn)"};
-}
-Example suspended_beam_example() {
-  return {"Example 2", verification::suspended_beam, 1.0, "straight (as drawn)"};
-}
+Example falling_beam_example() { return {"Example 1", verification::falling_beam, 0.7, "straight"}; }
+Example suspended_beam_example() { return {"Example 2", verification::suspended_beam, 1.0, "straight"}; }
 Example semicircle_example(bool straight) {
-  return {straight ? "Example 3, straight" : "Example 3, as drawn",
+  return {straight ? "Example 3, straight" : "Example 3, curved",
           [straight](int elements) { return verification::semicircle(elements, straight); }, 1.5,
-          straight ? "straight, bent to the semicircle" : "as drawn"};
+          straight ? "straight, bent to the semicircle" : "curved"};
 }
 
 double Run::leave_time() const {

@@ -100,7 +100,7 @@ bool write_state(Page& page, bool straight) {
   double largest = 0;
   for (const std::vector<Run>& of_step : all)
     largest = std::max(largest, largest_distance(of_step[counts.size() - 1], places));
-  page.status({"[D] Figs. 15-16, " + std::string(straight ? "straight" : "as drawn"),
+  page.status({"[D] Figs. 15-16, " + std::string(straight ? "straight" : "curved"),
                "[Example 3](#example-3-a-suspended-semicircle-with-a-sliding-mass-63)",
                "reproduced as far as its text tells",
                number(largest, 2) +
@@ -155,9 +155,9 @@ void write_printed_start(Page& page) {
   page.paragraph(
       "An arc drawn by Eq. 43 does not run evenly over its label: it is slower at its ends than in its middle, "
       "and by the letter of Eq. 19 that is strain. So the paper's start holds an axial energy that "
-      "falls with the fourth power of the element's length, \"the shape is exactly described\" holds for the "
-      "shape alone, and energies that do not depend on the number of elements come with nurbeam's metric "
-      "alone. nurbeam refuses a body that slides on a beam without metric; what it runs is the limit of the "
+      "falls with the fourth power of the element's length. \"The shape is exactly described\" holds for the "
+      "shape alone. Energies that do not depend on the number of elements come with nurbeam's metric "
+      "alone. A body that slides on a beam without metric is refused; what is run is the limit of the "
       "paper's formulas for many elements, `straight`.");
 }
 
