@@ -326,11 +326,11 @@ class Model:
         rotation: Mapping[str, Any] | None = None,
         **keys: Any,
     ) -> None:
-        """Holds a place of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork", which with a
+        """Supports a position of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork", which with a
         `direction` slide along it; or a body or its `body.at("rim")`, where "pinned" is a ball, and a pin with `axis`.
         `rotation` turns what it holds of a beam: {"axis": ..., "table": rows [time, degrees]} or {"axis": ...,
         "speed": rad/s, "ramp": s}, about a point `about` where that is given. `motion` moves it from
-        its drawn place: rows [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or
+        its reference position: rows [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or
         this with its first two derivatives; else these are taken by differences over 0.1 ms, also just before time 0.
         A `Signal` of three numbers is its velocity [m/s]."""
         by = self._by_function(motion)
@@ -370,7 +370,7 @@ class Model:
         equilibrium: str | None = None,
         **keys: Any,
     ) -> None:
-        """Runs a beam through a ring without mass: at `position` [m], or on the reference curve. `equilibrium`: "held"
+        """Runs a beam through a ring without mass: at `position` [m], or on the reference curve. `equilibrium`: `"held"`
         locks the position `at` in it until the motion starts, "free" finds its equilibrium. `keys`: `on` (a body that carries it),
         `path`, `inertia`, `motion`, `force`, `friction` and the others of the case file."""
         self.add("eyelets", name=name, beam=beam, at=at, position=position, equilibrium=equilibrium, **keys)

@@ -24,7 +24,7 @@ class Signal:
 
     It is a force [N] in `model.add_force`, the speed of a joint or a support [m/s] as their `motion`, or the wind [m/s]
     in `model.set_wind`. Setting it is no change of the model: nothing is built anew and no integrator restarts. With
-    its slope the motion is of the second order in the time between two settings, held constant of the first. A signal
+    its slope the motion is of the second order in the time between two settings, constant between them of the first. A signal
     belongs to one run at a time; a run begins with the value that it was made with.
     """
 
