@@ -11,7 +11,7 @@ AUTOMATIC = "Automatic"
 class Beam(Feature):
     TYPE = "Nurbeam::Beam"
     PROPERTIES = (
-        Property("XLinkSub", "Axis", "Axis", "Edges, a wire or a sketch; of a solid pipe its centre line"),
+        Property("XLinkSubList", "Axis", "Axis", "Edges, wires or sketches that meet end to end; of a solid pipe its centre line"),
         Property("Bool", "Reversed", "Axis", "The start is at the other end"),
         Property("Length", "Length", "Axis", "Of the drawn axis", output=True),
         Property("Enumeration", "SectionKind", "Section", "Its kind", "Round", choices=SECTION_KINDS),

@@ -19,7 +19,7 @@ def field_of(obj, row):
     if row.type in QUANTITIES:
         return _quantity(obj, row)
     makers = {"Enumeration": _enumeration, "Bool": _bool, "Integer": _integer, "Float": _float, "Vector": _vector,
-              "Link": _link, "XLinkSub": ReferenceList, "LinkList": _link_list}  # fmt: skip
+              "Link": _link, "XLinkSub": ReferenceList, "XLinkSubList": ReferenceList, "LinkList": _link_list}  # fmt: skip
     return makers.get(row.type, _text)(obj, row)
 
 

@@ -5,6 +5,7 @@ from pivy import coin
 
 from ..case.axes import axis_of
 from ..case.write_case import written_case
+from ..geometry import places
 from ..run.results import read
 
 PLACES = 201  # of a beam that are drawn
@@ -111,7 +112,7 @@ class Animation:
 
     def _fade(self):
         """Makes the pictures of the shapes that beams were drawn on faint: (root, node) of each."""
-        roots = {obj.Axis[0] for obj in self.objects.values() if getattr(obj, "Axis", None)}
+        roots = {root for obj in self.objects.values() for root, _ in places.parts_of_link(getattr(obj, "Axis", None))}
         faded = []
         for root in roots:
             faint = coin.SoMaterial()
