@@ -5,9 +5,9 @@ import FreeCADGui
 
 from .. import objects
 from ..geometry import places
+from ..objects.material_card import first_card
 from ..panels.references import links_of_selection, only_link
 from .command import Command, activate, active_analysis
-from .materials import first_material
 
 
 def new_analysis(document):
@@ -63,7 +63,7 @@ class NewBeam(NewPart):
     HELP = "A beam along the selected edges, wire or sketch, or of a selected pipe"
 
     def fill(self, obj, analysis, links, selected):
-        obj.Material = first_material(obj.Document)
+        obj.Material = first_card(obj.Document)
         if not links:
             return
         obj.Label = f"Beam {links[0][0].Label}"

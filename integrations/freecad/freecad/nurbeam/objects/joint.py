@@ -1,7 +1,7 @@
 """What ties beams that meet."""
 
-from .feature import Feature, Property
-from .place import SLOPE
+from .feature import Feature, Property, type_of
+from .place import SLOPE, about
 
 
 class Joint(Feature):
@@ -13,3 +13,14 @@ class Joint(Feature):
         Property("Vector", "HingeAxis", "Joint", "Of Hinged, of beams that twist: they turn about this direction alone; 0 0 0: about all"),
         SLOPE,
     )  # fmt: skip
+
+    def compute(self, obj):
+        from ..geometry.places import point_of_link
+        from .beam import Beam
+
+        beams = [each for each in obj.Beams if type_of(each) == Beam.TYPE]
+        if len(beams) < max(2, len(obj.Beams)):
+            raise ValueError(f"Beams: {len(beams)} beams are chosen; expected {max(2, len(obj.Beams))}")
+        if obj.Point:
+            with about("Point"):
+                point_of_link(obj.Point)

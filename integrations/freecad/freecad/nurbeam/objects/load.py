@@ -3,11 +3,12 @@
 from FreeCAD import Vector
 
 from .feature import Property
-from .place import PLACE, SLOPE, TABLE, Placed
+from .place import PLACE, SLOPE, TABLE, Placed, about
 
 
 class Load(Placed):
     TYPE = "Nurbeam::Load"
+    TABLE_UNITS = ("s", "1")
     PROPERTIES = (
         *PLACE,
         Property("Enumeration", "LoadKind", "Load", "At the place: Force, Moment; along the whole beam: the others", "Force",
@@ -22,3 +23,11 @@ class Load(Placed):
         *TABLE,
         SLOPE,
     )  # fmt: skip
+
+    def compute(self, obj):
+        from ..geometry.places import direction_of_link
+
+        super().compute(obj)
+        if obj.DirectionOf:
+            with about("DirectionOf"):
+                direction_of_link(obj.DirectionOf)

@@ -1,8 +1,10 @@
 """The properties of what stands at a place of a beam."""
 
+import contextlib
+
 from FreeCAD import Vector
 
-from .feature import Feature, Property
+from .feature import Feature, Property, type_of
 
 BEAM = Property("Link", "Beam", "Place", "The beam")
 PLACE_KINDS = ("Start", "End", "Length", "Fraction", "At a point")
@@ -23,10 +25,37 @@ SLOPE = Property("Enumeration", "Slope", "More", "Whether the beam may have a ki
 
 
 class Placed(Feature):
-    """An object at a place of a beam; a recompute finds its position."""
+    """An object at a place of a beam; a recompute finds its position, and checks what it links to."""
+
+    TABLE_UNITS = ()
+    """Of the columns of its table."""
 
     def compute(self, obj):
         from ..case.positions import position_of
+        from ..case.tables import rows_of_table
 
-        if obj.Beam is not None:
-            obj.Position = position_of(obj)
+        check_beam(obj, "Beam")
+        obj.Position = position_of(obj)
+        if self.TABLE_UNITS and obj.Table is not None:
+            with about("Range"):
+                rows_of_table(obj.Table, obj.Range, self.TABLE_UNITS)
+
+
+def check_beam(obj, prop):
+    """ValueError where a link of an object leads to no beam."""
+    from .beam import Beam
+
+    target = getattr(obj, prop)
+    if target is None:
+        raise ValueError(f"{prop}: no beam is chosen")
+    if type_of(target) != Beam.TYPE:
+        raise ValueError(f"{prop}: {target.Label} is no beam")
+
+
+@contextlib.contextmanager
+def about(prop):
+    """Puts the property before the text of what is raised."""
+    try:
+        yield
+    except ValueError as problem:
+        raise ValueError(f"{prop}: {problem}") from None

@@ -6,6 +6,7 @@ from .place import PLACE, SLOPE, TABLE, Placed
 
 class SlidingBody(Placed):
     TYPE = "Nurbeam::SlidingBody"
+    TABLE_UNITS = ("s", "m")
     PROPERTIES = (
         *PLACE,
         Property("Quantity", "Mass", "Body", "Of the body", "1 kg", "kg"),

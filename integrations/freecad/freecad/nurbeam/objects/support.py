@@ -8,6 +8,7 @@ from .place import PLACE, SLOPE, TABLE, Placed
 
 class Support(Placed):
     TYPE = "Nurbeam::Support"
+    TABLE_UNITS = ("s", "m", "m", "m")
     PROPERTIES = (
         *PLACE,
         Property("Enumeration", "SupportKind", "Support", "What it holds: position and direction; position; position and "

@@ -38,8 +38,11 @@ SHOWN_WITH = {
         "StopKind": {"Restitution": ("Hard",), "Stiffness": ("Buffer",), "Damping": ("Buffer",)},
     },
     objects.Connector.TYPE: {
-        "ConnectorKind": {"Stiffness": ("Spring", "Tension only", "Compression only"),
-                          "Damping": ("Spring", "Tension only", "Compression only")},
+        "ConnectorKind": {
+            **dict.fromkeys(("Stiffness", "Damping"), ("Spring", "Tension only", "Compression only")),
+            **dict.fromkeys(("LengthKind", "FreeLength", "Force", "Direction"), ("Spring", "Tension only", "Compression only", "Rod")),
+            **dict.fromkeys(("RotationalStiffness", "RotationalDamping", "RotationAxis", "FreeAngle", "Moment"), ("Rotational",)),
+        },
         "LengthKind": {"FreeLength": ("Length",), "Force": ("Force",)},
     },
     objects.DeformedShape.TYPE: {"Form": {"Radius": ("Solid",), "Bore": ("Solid",)}},
@@ -56,6 +59,15 @@ def rules_of(obj):
         if f"{prefix}PlaceKind" in obj.PropertiesList:
             rules[f"{prefix}PlaceKind"] = {prefix + name: values for name, values in PLACES.items()}
     return rules
+
+
+def _ends(obj):
+    """Of a connector, whose ends may be of a beam, a body, or a point in space."""
+    return [prefix for prefix in ("From", "To") if f"{prefix}Object" in obj.PropertiesList]
+
+
+def _is_of_beam(obj, end):
+    return objects.type_of(getattr(obj, f"{end}Object")) == objects.Beam.TYPE
 
 
 RECOMPUTE_AFTER = 200  # ms without another change
@@ -103,7 +115,7 @@ class PartPanel(TaskPanel):
                 pages[group] = self._page(group)
             self._add(row, pages[group])
         self._order_tabs()
-        for choice in rules_of(self.obj):
+        for choice in [*rules_of(self.obj), *(f"{end}Object" for end in _ends(self.obj))]:
             self.fields[choice].currentTextChanged.connect(lambda _: self.show_rows())
         self.show_rows()
         self._show_message()
@@ -132,11 +144,18 @@ class PartPanel(TaskPanel):
 
     def show_rows(self):
         """Hides rows that the present choices do not use."""
+        hidden = {name: False for rows in rules_of(self.obj).values() for name in rows}
+        for end in _ends(self.obj):
+            hidden.update({f"{end}{name}": not _is_of_beam(self.obj, end) for name in ("PlaceKind", "PlaceLength", "Fraction", "Slope")})
         for choice, rows in rules_of(self.obj).items():
             for name, values in rows.items():
-                shown = getattr(self.obj, choice) in values
-                self.fields[name].setVisible(shown)
-                self.labels[name].setVisible(shown)
+                hidden[name] |= getattr(self.obj, choice) not in values
+        for end in _ends(self.obj):
+            if not _is_of_beam(self.obj, end):
+                hidden[f"{end}Point"] = getattr(self.obj, f"{end}Object") is not None  # else it is the point in space
+        for name, is_hidden in hidden.items():
+            self.fields[name].setVisible(not is_hidden)
+            self.labels[name].setVisible(not is_hidden)
 
     def _show_message(self):
         wrong = "Invalid" in self.obj.State

@@ -5,6 +5,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..run.results import radii_of_beam
 from ..view.animation import COLOURS, UNITS
 
 PLAY_INTERVAL = 40  # ms
@@ -177,5 +178,6 @@ def keep_frame(result, beam, frame, exaggeration=1.0):
     shape.Result, shape.BeamName = result, beam
     shape.Time = f"{result.Times[frame]!r} s"
     shape.Exaggeration = exaggeration
+    shape.Radius, shape.Bore = radii_of_beam(result, beam)
     shape.Label = f"{beam} at {result.Times[frame]:.6g} s"
     return shape

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import Part
 
-from ..case.values import metres, rounded, si, times_unit, vector
+from ..case.values import merged, metres, rounded, si, times_unit, vector
 from ..geometry.edges import edge_of_nurbs
 from ..geometry.places import NoPlace, end_of_link
 from .command import TooLong, run_program
@@ -66,6 +66,10 @@ def cable_file(obj):
     gravity = times_unit(9.81, obj.GravityDirection) or [0, 0, 0]
     cable = {"name": obj.Label.replace('"', "_").replace(",", "_"), "from": _end(obj, "From"), "to": _end(obj, "To"),
              **_goal(obj), "section": section, "material": material}  # fmt: skip
+    try:
+        cable = merged(cable, obj.ExtraKeys)
+    except ValueError as problem:
+        raise NoRoute(f"ExtraKeys: {problem}") from None
     return {"nurbeam_route": 1, "gravity": gravity, "cables": [cable]}
 
 

@@ -84,6 +84,13 @@ class Cables(DocumentTest):
             self.document.recompute()
         self.assertIn("takes longer than 0.02 s: press Run", self.cable.getStatusString())
 
+    def test_extra_keys_reach_the_file_of_cables(self):
+        self.cable.CableLength, self.cable.ExtraKeys = "950 mm", '{"length": 1.2}'
+        self.assertEqual(route.cable_file(self.cable)["cables"][0]["length"], 1.2)
+        self.cable.ExtraKeys = "{"
+        with self.assertRaisesRegex(route.NoRoute, "ExtraKeys"):
+            route.cable_file(self.cable)
+
     def test_a_flipped_end_leaves_the_other_way(self):
         self.cable.FromFlip = True
         edge = self.find(1600)
