@@ -29,7 +29,7 @@ def standard_cards():
         for file in sorted(glob.glob(os.path.join(glob.escape(folder), "**", "*.FCMat"), recursive=True)):
             try:
                 card = importFCMat.read(file)
-                is_whole = all(FreeCAD.Units.Quantity(card[entry]).Value > 0 for entry in NEEDED)
+                is_whole = all(card[entry].strip() and FreeCAD.Units.Quantity(card[entry]).Value > 0 for entry in NEEDED)
             except Exception:  # one that lacks a number, or a broken file of the user's own, must not hide the others
                 continue
             if is_whole:

@@ -6,22 +6,22 @@ from FreeCAD import Vector
 
 from .feature import Feature, Property, type_of
 
-BEAM = Property("Link", "Beam", "Place", "The beam")
+BEAM = Property("Link", "Beam", "Place", "The beam on which it stands")
 PLACE_KINDS = ("Start", "End", "Length", "Fraction", "At a point")
 PLACE = (
     BEAM,
-    Property("Enumeration", "PlaceKind", "Place", "How the place is given", "Start", choices=PLACE_KINDS),
-    Property("Distance", "PlaceLength", "Place", "Drawn length from the start of the beam, with Length"),
-    Property("Float", "Fraction", "Place", "Part of the drawn length, from 0 to 1, with Fraction", 0.5),
-    Property("XLinkSub", "Point", "Place", "A vertex, of which the nearest place of the beam is meant, with At a point"),
-    Property("Vector", "Position", "Place", "Where that is", Vector(0, 0, 0), output=True),
+    Property("Enumeration", "PlaceKind", "Place", "How the position on the beam is given", "Start", choices=PLACE_KINDS),
+    Property("Distance", "PlaceLength", "Place", "Length along the axis from the start of the beam"),
+    Property("Float", "Fraction", "Place", "Part of the length of the axis, from 0 to 1", 0.5),
+    Property("XLinkSub", "Point", "Place", "A vertex; the nearest point of the beam is meant"),
+    Property("Vector", "Position", "Place", "The position in space", Vector(0, 0, 0), output=True),
 )
 TABLE = (
     Property("Link", "Table", "Table", "Spreadsheet with rows over time"),
     Property("String", "Range", "Table", "Cells of the table, the first row of which has the units: A1:D9"),
 )
 SLOPES = ("Automatic", "Continuous", "Discontinuous")
-SLOPE = Property("Enumeration", "Slope", "More", "Whether the beam may have a kink there", "Automatic", choices=SLOPES)
+SLOPE = Property("Enumeration", "Slope", "More", "Whether the beam may have a slope discontinuity there", "Automatic", choices=SLOPES)
 
 
 class Placed(Feature):

@@ -5,6 +5,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..language import tr
 from ..objects.material_card import cards_of, make_card, standard_cards
 from .references import ReferenceList
 
@@ -80,7 +81,7 @@ def _material(obj, row):
     """The cards of the document, and below them those that FreeCAD brings, of which one that is chosen comes into the document."""
     box = QtGui.QComboBox()
     own, standard = cards_of(obj.Document), standard_cards()
-    box.addItem("(none)", None)
+    box.addItem(tr("(none)"), None)
     for card in own:
         box.addItem(card.Label, card.Name)
     box.insertSeparator(box.count())
@@ -105,9 +106,10 @@ def _material(obj, row):
 
 def _enumeration(obj, row):
     box = QtGui.QComboBox()
-    box.addItems(list(row.choices))
-    box.setCurrentText(getattr(obj, row.name))
-    box.currentTextChanged.connect(lambda text: setattr(obj, row.name, text))
+    for choice in row.choices:
+        box.addItem(tr(choice), choice)
+    box.setCurrentIndex(list(row.choices).index(getattr(obj, row.name)))
+    box.currentIndexChanged.connect(lambda index: setattr(obj, row.name, row.choices[index]))
     return box
 
 
@@ -174,7 +176,7 @@ def candidates(obj, prop):
 def _link(obj, row):
     box = QtGui.QComboBox()
     targets = [None, *candidates(obj, row.name)]
-    box.addItems(["(none)", *(each.Label for each in targets[1:])])
+    box.addItems([tr("(none)"), *(each.Label for each in targets[1:])])
     present = getattr(obj, row.name)
     box.setCurrentIndex(targets.index(present) if present in targets else 0)
     box.currentIndexChanged.connect(lambda index: setattr(obj, row.name, targets[index]))

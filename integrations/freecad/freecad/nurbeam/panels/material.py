@@ -3,6 +3,7 @@
 import FreeCADGui
 from PySide import QtCore, QtGui
 
+from ..language import tr
 from ..objects.material_card import cards_of, make_card, standard_cards
 
 SHOWN = ("Density", "YoungsModulus", "PoissonRatio", "ThermalExpansionCoefficient")
@@ -14,19 +15,19 @@ class MaterialPanel:
     def __init__(self, document, beams):
         self.document, self.beams = document, beams
         self.form = QtGui.QWidget()
-        self.form.setWindowTitle("Material")
+        self.form.setWindowTitle(tr("Material"))
         layout = QtGui.QVBoxLayout(self.form)
-        self.of = QtGui.QLabel(f"For {', '.join(beam.Label for beam in beams)}" if beams else "For beams that are made later")
+        self.of = QtGui.QLabel(tr("For {}").format(", ".join(beam.Label for beam in beams)) if beams else tr("For beams that are made later"))
         self.of.setWordWrap(True)
         self.filter = QtGui.QLineEdit()
-        self.filter.setPlaceholderText("Part of a name, as S235")
+        self.filter.setPlaceholderText(tr("Part of a name, as S235"))
         self.list, self.texts = QtGui.QListWidget(), QtGui.QLabel()
         for widget in (self.of, self.filter, self.list, self.texts):
             layout.addWidget(widget)
         self.choices = [*((card.Label, dict(card.Material), card) for card in cards_of(document)),
                         *((name, texts, None) for name, texts in standard_cards().items())]  # fmt: skip
         for i, (name, _, card) in enumerate(self.choices):
-            item = QtGui.QListWidgetItem(f"{name} (in this document)" if card else name, self.list)
+            item = QtGui.QListWidgetItem(tr("{} (in this document)").format(name) if card else name, self.list)
             item.setData(QtCore.Qt.UserRole, i)
         self.filter.textChanged.connect(self.show_matching)
         self.list.currentRowChanged.connect(lambda _: self.show_texts())

@@ -4,7 +4,9 @@ import FreeCAD
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..language import tr, tr_help
 from ..objects.place import Placed
+from ..translations.texts import label
 from .fields import field_of
 from .task import TaskPanel
 
@@ -48,7 +50,6 @@ SHOWN_WITH = {
     objects.DeformedShape.TYPE: {"Form": {"Radius": ("Solid",), "Bore": ("Solid",)}},
 }  # fmt: skip
 LAST, PLACE = "More", "Place"  # groups: the last tab; the one that shares a page with what stands at the place
-LABELS = {"Slack": "Slack [%]"}  # of numbers whose unit no widget shows
 PLACES = {"PlaceLength": ("Length",), "Fraction": ("Fraction",), "Point": ("At a point",)}
 
 
@@ -116,28 +117,28 @@ class PartPanel(TaskPanel):
             self._add(row, pages[group])
         self._order_tabs()
         for choice in [*rules_of(self.obj), *(f"{end}Object" for end in _ends(self.obj))]:
-            self.fields[choice].currentTextChanged.connect(lambda _: self.show_rows())
+            self.fields[choice].currentIndexChanged.connect(lambda _: self.show_rows())
         self.show_rows()
         self._show_message()
 
     def _page(self, group):
         page = QtGui.QWidget()
         layout = QtGui.QFormLayout(page)
-        self.tabs.addTab(page, group)
+        self.tabs.addTab(page, tr(group))
         return layout
 
     def _add(self, row, layout):
         field = field_of(self.obj, row)
-        label = QtGui.QLabel(LABELS.get(row.name) or words(row.name))
-        for widget in (field, label):
-            widget.setToolTip(row.help)
-        layout.addRow(label, field)
-        self.fields[row.name], self.labels[row.name] = field, label
+        caption = QtGui.QLabel(label_of(row.name))
+        for widget in (field, caption):
+            widget.setToolTip(tr_help(row.help))
+        layout.addRow(caption, field)
+        self.fields[row.name], self.labels[row.name] = field, caption
         self.tab_of[row.name] = layout.parentWidget()
 
     def _order_tabs(self):
         for i in range(self.tabs.count()):
-            if self.tabs.tabText(i) == LAST:
+            if self.tabs.tabText(i) == tr(LAST):
                 self.tabs.tabBar().moveTab(i, self.tabs.count() - 1)
                 break
         self.tabs.setCurrentIndex(0)
@@ -168,6 +169,5 @@ class PartPanel(TaskPanel):
             self.fields[prop].setFocus(QtCore.Qt.OtherFocusReason)
 
 
-def words(name):
-    """"PlaceLength" as "Place length"."""
-    return "".join(" " + c.lower() if c.isupper() and i > 0 else c for i, c in enumerate(name))
+def label_of(name):
+    return tr(label(name))

@@ -5,6 +5,7 @@ import FreeCADGui
 from PySide import QtGui
 
 from ..geometry import places
+from ..language import tr
 
 KINDS = {"Axis": "Edge Solid Wire Face", "Profile": "Edge Face Wire", "Point": "Vertex", "FromPoint": "Vertex", "ToPoint": "Vertex",
          "DirectionOf": "Edge Face", "From": "Face Edge Vertex", "To": "Face Edge Vertex"}  # fmt: skip
@@ -46,10 +47,10 @@ class ReferenceList(QtGui.QWidget):
         self.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Maximum)
         self.list = QtGui.QListWidget()
         self.list.setMaximumHeight(64)
-        self.pick = QtGui.QPushButton("Pick")
+        self.pick = QtGui.QPushButton(tr("Pick"))
         self.pick.setCheckable(True)
-        self.pick.setToolTip("Select in the 3-D view, then press again to take the selection")
-        self.clear = QtGui.QPushButton("Clear")
+        self.pick.setToolTip(tr("Select in the 3-D view, then press again to take the selection"))
+        self.clear = QtGui.QPushButton(tr("Clear"))
         buttons = QtGui.QHBoxLayout()
         buttons.addWidget(self.pick)
         buttons.addWidget(self.clear)
@@ -62,7 +63,7 @@ class ReferenceList(QtGui.QWidget):
     def _picked(self, begins):
         if begins:
             FreeCADGui.Selection.addSelectionGate(Gate(self.prop))
-            self.pick.setText("Take the selection")
+            self.pick.setText(tr("Take the selection"))
             return
         self.end_picking()
         links = links_of_selection()
@@ -71,7 +72,7 @@ class ReferenceList(QtGui.QWidget):
 
     def end_picking(self):
         FreeCADGui.Selection.removeSelectionGate()
-        self.pick.setText("Pick")
+        self.pick.setText(tr("Pick"))
 
     def set_link(self, link):
         setattr(self.obj, self.prop, link)
