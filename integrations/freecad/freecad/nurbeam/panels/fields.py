@@ -56,7 +56,7 @@ def _quantity_in_unit(obj, row):
         try:
             _write_quantity(obj, row, text.strip())
             edit.setStyleSheet("")
-        except (ValueError, ArithmeticError, RuntimeError):
+        except (ValueError, ArithmeticError, RuntimeError, TypeError):
             edit.setStyleSheet("color: red")
 
     edit.textChanged.connect(changed)
@@ -64,14 +64,15 @@ def _quantity_in_unit(obj, row):
 
 
 def _write_quantity(obj, row, text):
-    if text.startswith("="):
-        obj.setExpression(row.name, text[1:])
-        return
-    quantity = FreeCAD.Units.Quantity(text)
-    if quantity.Unit == FreeCAD.Units.Unit():
+    is_expression = text.startswith("=")
+    quantity = FreeCAD.Units.Quantity(obj.evalExpression(text[1:]) if is_expression else text)
+    if quantity.Unit == FreeCAD.Units.Unit() and not is_expression:
         quantity = FreeCAD.Units.Quantity(f"{quantity.Value!r} {row.unit}")
     if quantity.Unit != FreeCAD.Units.Unit(row.unit):
         raise ValueError(f"{text} is no quantity in {row.unit}")
+    if is_expression:
+        obj.setExpression(row.name, text[1:])
+        return
     if row.name in dict(obj.ExpressionEngine):
         obj.setExpression(row.name, None)
     setattr(obj, row.name, quantity)

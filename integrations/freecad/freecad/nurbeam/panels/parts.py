@@ -1,5 +1,7 @@
 """The panel of beams, supports, bodies, loads and the like: a form made of the table of the object."""
 
+import re
+
 import FreeCAD
 from PySide import QtCore, QtGui
 
@@ -160,8 +162,12 @@ class PartPanel(TaskPanel):
 
     def _show_message(self):
         wrong = "Invalid" in self.obj.State
-        self.message.setText(self.obj.getStatusString() if wrong else "")
+        self.message.setText(self._in_words(self.obj.getStatusString()) if wrong else "")
         self.message.setStyleSheet("color: #b00020" if wrong else "")
+
+    def _in_words(self, text):
+        """With captions in place of the names of properties."""
+        return re.sub(r"(^|; )(\w+): ", lambda m: f"{m[1]}{label_of(m[2])}: " if m[2] in self.fields else m[0], text)
 
     def show_property(self, prop):
         if prop in self.fields:

@@ -94,7 +94,9 @@ def _goal(obj):
 
 def _positive(obj, prop, value):
     if not value > 0:
-        raise NoRoute(f"{prop}: is {getattr(obj, prop)}; must be greater than 0")
+        unit = next(row.unit for row in obj.Proxy.table() if row.name == prop)
+        shown = f"{value:.10g} {unit}" if unit else getattr(obj, prop)
+        raise NoRoute(f"{prop}: is {shown}; must be greater than 0")
     return value
 
 
