@@ -79,6 +79,12 @@ class NewSupport(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Support", "Support", "support", objects.Support
     HELP = "What holds a place of a beam"
 
+    def fill(self, obj, analysis, links, selected):
+        super().fill(obj, analysis, links, selected)
+        others = [each for each in objects.members(analysis, objects.Support) if each is not obj and each.Beam is obj.Beam]
+        if any(each.PlaceKind == "Start" for each in others) and obj.PlaceKind == "Start":
+            obj.PlaceKind = "End"
+
 
 class NewBody(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_SlidingBody", "Sliding body", "body", objects.SlidingBody
@@ -94,6 +100,10 @@ class NewBody(NewPart):
 class NewLoad(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Load", "Load", "load", objects.Load
     HELP = "A force or a moment on a beam, at a place or along it"
+
+    def fill(self, obj, analysis, links, selected):
+        obj.PlaceKind = "End"  # the start has the first support
+        super().fill(obj, analysis, links, selected)
 
 
 class NewJoint(NewPart):

@@ -29,6 +29,9 @@ class CableOfLength(Feature):
         Property("Force", "LargestTension", "Found", "Maximum tension", output=True),
     )  # fmt: skip
 
+    failed = None
+    """What the last search was asked that has found nothing, and the message."""
+
     def compute(self, obj):
         from ..run.route import found_route
 

@@ -34,6 +34,17 @@ class FoundRoute(NamedTuple):
 def found_route(obj):
     """The cable of a CableOfLength, within the time of a recompute, or of a run where it asks for one."""
     limit = RUN_LIMIT if obj.RunNow else RECOMPUTE_LIMIT
+    asked = (limit, obj.Solid, obj.Diameter.Value, json.dumps(cable_file(obj)))
+    if obj.Proxy.failed and obj.Proxy.failed[0] == asked and not obj.RunNow:
+        raise NoRoute(obj.Proxy.failed[1])  # an object that is invalid is asked at each recompute of the document
+    try:
+        return _found_within(obj, limit)
+    except NoRoute as problem:
+        obj.Proxy.failed = (asked, str(problem))
+        raise
+
+
+def _found_within(obj, limit):
     with tempfile.TemporaryDirectory() as folder:
         cables, out = os.path.join(folder, "cables.json"), os.path.join(folder, "cable.brep" if obj.Solid else "cable.json")
         with open(cables, "w", encoding="utf-8") as stream:
