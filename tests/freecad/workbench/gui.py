@@ -298,6 +298,26 @@ def titles():
     return [w.windowTitle() for w in Gui.getMainWindow().findChildren(QtGui.QWidget) if w.isVisible()]
 
 
+def test_a_connector_is_a_line_between_its_ends(document, beam):
+    from freecad.nurbeam import objects
+
+    connector = objects.make(objects.Connector, document, analysis=objects.analysis_of(beam))
+    point = document.addObject("Part::Feature", "Anchor")
+    point.Shape = Part.Vertex(0, 0, 500)
+    span = connector.ViewObject.Proxy.symbol
+    expect("one without ends is not shown", span._switch.whichChild.getValue() == -1)
+    connector.FromObject, connector.FromPlaceKind, connector.ToPoint = beam, "End", (point, ["Vertex1"])
+    document.recompute()
+    ends = [p.getValue() for p in span._points.point.getValues()]
+    expect(f"its line goes from beam to point: {ends}", ends[1] == (0, 0, 500) and span._switch.whichChild.getValue() == -3)
+    panel = panel_of(connector)
+    expect("of a point in space no length is asked", not panel.fields["ToPlaceKind"].isVisibleTo(panel.form))
+    picture("connector")
+    close(False)
+    document.removeObject(connector.Name)
+    document.removeObject(point.Name)
+
+
 def test_faults(document, beam):
     from freecad.nurbeam import objects
 
@@ -632,6 +652,7 @@ def main():
     test_gate()
     test_every_panel_opens(document, beam)
     test_quantities_in_their_own_units(document)
+    test_a_connector_is_a_line_between_its_ends(document, beam)
     test_faults(document, beam)
     test_cable()
     test_a_new_user(folder)

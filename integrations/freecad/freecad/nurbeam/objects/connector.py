@@ -14,6 +14,7 @@ def _end(prefix):
         Property("Float", f"{prefix}Fraction", prefix, "Part of the length of the axis, from 0 to 1", 0.5),
         Property("XLinkSub", f"{prefix}Point", prefix, "A vertex: the point in space, or the one whose nearest point of the beam is meant"),
         Property("Quantity", f"{prefix}Mass", prefix, "Mass of a clamp there", "0 kg", "kg"),
+        Property("Vector", f"{prefix}Position", prefix, "The position in space", Vector(0, 0, 0), output=True),
         Property("Enumeration", f"{prefix}Slope", prefix, "Whether the beam may have a slope discontinuity there", "Automatic", choices=SLOPES),
     )
 
@@ -42,13 +43,15 @@ class Connector(Feature):
     )  # fmt: skip
 
     def compute(self, obj):
+        from ..case.positions import position_of_end
+
         for prefix in ("From", "To"):
             with about(f"{prefix}Object"):
                 self._check_end(obj, prefix)
+            setattr(obj, f"{prefix}Position", position_of_end(obj, prefix))
 
     @staticmethod
     def _check_end(obj, prefix):
-        from ..geometry.places import point_of_link
         from .beam import Beam
         from .sliding_body import SlidingBody
 
@@ -58,5 +61,3 @@ class Connector(Feature):
         by_point = target is None or (type_of(target) == Beam.TYPE and getattr(obj, f"{prefix}PlaceKind") == "At a point")
         if by_point and not getattr(obj, f"{prefix}Point"):
             raise ValueError("nothing is chosen; choose a beam, a body, or a vertex as point")
-        if by_point:
-            point_of_link(getattr(obj, f"{prefix}Point"))

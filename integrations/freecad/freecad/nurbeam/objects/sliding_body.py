@@ -10,7 +10,8 @@ class SlidingBody(Placed):
     PROPERTIES = (
         *PLACE,
         Property("Quantity", "Mass", "Body", "Mass of the body", "1 kg", "kg"),
-        Property("Quantity", "RollInertia", "Body", "Moment of inertia about the beam, of a body that rolls with a beam that twists", "0 kg*m^2", "kg*m^2"),
+        Property("Quantity", "RollInertia", "Body", "Moment of inertia about the beam, of a body that rolls with a beam that twists",
+                 "0 kg*m^2", "kg*m^2"),
         Property("Area", "DragArea", "Body", "Drag coefficient times area"),
         Property("Speed", "Speed", "Motion", "Speed at the start, along the beam"),
         Property("Quantity", "Release", "Motion", "Time until which the body is locked; 0: free from the start", "0 s", "s"),

@@ -68,7 +68,8 @@ class Fem(DocumentTest):
             import ObjectsFem
         except ImportError:
             self.skipTest("FreeCAD has no FEM")
-        frame = self.add(Part.Wire([Part.makeLine(Vector(0, 0, 0), Vector(1000, 0, 0)), Part.makeLine(Vector(1000, 0, 0), Vector(1000, 0, 500))]), "Frame")
+        corner = Vector(1000, 0, 0)
+        frame = self.add(Part.makePolygon([Vector(0, 0, 0), corner, corner + Vector(0, 0, 500)]), "Frame")
         fem = ObjectsFem.makeAnalysis(self.document, "FEM")
         section = ObjectsFem.makeElementGeometry1D(self.document, sectiontype="Pipe")
         section.PipeDiameter, section.PipeThickness = "20 mm", "2 mm"

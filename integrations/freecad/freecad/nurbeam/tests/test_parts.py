@@ -64,6 +64,8 @@ class Parts(DocumentTest):
         spring.FromObject, spring.FromPlaceKind = other, "End"
         spring.ToPoint = (self.add(Part.Vertex(1500, 0, 500), "Point"), ["Vertex1"])
         keys = self.check()
+        self.assertEqual((joint.Position, spring.FromPosition, spring.ToPosition),
+                         (Vector(1000, 0, 0), Vector(1000, 0, 500), Vector(1500, 0, 500)))  # fmt: skip
         self.assertEqual(keys["joints"][0]["beams"], ["bar", "other"])
         self.assertEqual(keys["connectors"][0]["to"], {"point": [1.5, 0, 0.5]})
 
@@ -136,7 +138,7 @@ class Parts(DocumentTest):
             (self.load, {"PlaceKind": "End", "DirectionOf": (plane, ["Vertex1"])}, "DirectionOf: a vertex has no direction"),
             (joint, {"Beams": [self.beam]}, "Beams: 1 beams are chosen; expected 2"),
             (spring, {}, "ToObject: nothing is chosen"),
-            (spring, {"ToObject": self.support}, "ToObject: wall is neither a beam nor a sliding body"),
+            (spring, {"ToObject": plane}, "ToObject: Box is neither a beam nor a sliding body"),
         ):
             with self.subTest(message=message):
                 for name, value in changes.items():
