@@ -178,7 +178,11 @@ def _write_stretched(obj, keys):
         keys["force"] = si(obj.Force, "N")
     if obj.Direction.Length > 0:
         keys["direction"] = vector(obj.Direction)
-    return (("stiffness", "Stiffness"), ("damping", "Damping"), ("length", "FreeLength"), ("force", "Force"), ("direction", "Direction"))
+    masses = [si(obj.FromMass, "kg"), si(obj.ToMass, "kg")]
+    if any(masses):
+        keys["end_masses"] = masses
+    return (("stiffness", "Stiffness"), ("damping", "Damping"), ("length", "FreeLength"), ("force", "Force"), ("direction", "Direction"),
+            ("end_masses", "FromMass"))  # fmt: skip
 
 
 def _write_rotational(obj, keys):
@@ -200,10 +204,7 @@ def connector_keys(obj, name, writer, path):
         names = _write_rotational(obj, keys)
     else:
         names = _write_stretched(obj, keys)
-    masses = [si(obj.FromMass, "kg"), si(obj.ToMass, "kg")]
-    if any(masses):
-        keys["end_masses"] = masses
-    for key, prop in (*names, ("end_masses", "FromMass")):
+    for key, prop in names:
         writer.place(f"{path}.{key}", obj, prop)
     return keys
 

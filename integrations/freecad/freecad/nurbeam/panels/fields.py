@@ -11,7 +11,7 @@ from .references import ReferenceList
 
 QUANTITIES = ("Length", "Distance", "Area", "Force", "Speed", "Acceleration", "Quantity")
 DIGITS = 10  # that are shown of quantities
-OF_THEIR_OWN = ("N*m", "N*m^2", "N*s/m", "kg/m", "N*m/rad", "N*m*s/rad")  # units which FreeCAD shows as J, mm^3*kg/s^2, kg/s, ...
+OF_THEIR_OWN = ("kg", "kg*m^2", "N*m", "N*m^2", "N*s/m", "kg/m", "N*m/rad", "N*m*s/rad")  # units that FreeCAD shows as µg, J, mm^3*kg/s^2, ...
 TARGETS = {
     "Beam": (objects.Beam,), "FromObject": (objects.Beam, objects.SlidingBody), "ToObject": (objects.Beam, objects.SlidingBody),
 }  # fmt: skip

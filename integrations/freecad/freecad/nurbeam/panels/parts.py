@@ -44,7 +44,7 @@ SHOWN_WITH = {
     objects.Connector.TYPE: {
         "ConnectorKind": {
             **dict.fromkeys(("Stiffness", "Damping"), ("Spring", "Tension only", "Compression only")),
-            **dict.fromkeys(("LengthKind", "FreeLength", "Force", "Direction"), ("Spring", "Tension only", "Compression only", "Rod")),
+            **dict.fromkeys(("LengthKind", "FreeLength", "Force", "Direction", "FromMass", "ToMass"), ("Spring", "Tension only", "Compression only", "Rod")),
             **dict.fromkeys(("RotationalStiffness", "RotationalDamping", "RotationAxis", "FreeAngle", "Moment"), ("Rotational",)),
         },
         "LengthKind": {"FreeLength": ("Length",), "Force": ("Force",)},

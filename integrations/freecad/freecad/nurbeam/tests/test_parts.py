@@ -69,22 +69,24 @@ class Parts(DocumentTest):
         self.assertEqual(keys["joints"][0]["beams"], ["bar", "other"])
         self.assertEqual(keys["connectors"][0]["to"], {"point": [1.5, 0, 0.5]})
 
-    def test_a_rotational_spring_between_beams_with_masses_at_its_ends(self):
+    def test_a_rotational_spring_between_beams_and_one_with_masses(self):
         other = self.beam_on("other", Vector(1000, 0, 0), Vector(1000, 0, 500))
         joint = self.part(objects.Joint, "corner")
         joint.Beams = [self.beam, other]
         spring = self.part(objects.Connector, "spring")
         spring.FromObject, spring.FromPlaceKind, spring.ToObject = self.beam, "End", other
         spring.ConnectorKind, spring.RotationalStiffness, spring.RotationAxis = "Rotational", "50 N*m/rad", Vector(0, 1, 0)
-        spring.FreeAngle, spring.Moment, spring.FromMass = "-30 deg", "2 N*m", "0.5 kg"
+        spring.FreeAngle, spring.Moment, spring.FromMass = "-30 deg", "2 N*m", "0.5 kg"  # a mass is of the others
         self.document.recompute()
         keys = self.check()["connectors"][0]
-        wanted = {"type": "rotational", "stiffness": 50, "axis": [0, 1, 0], "angle": -30, "moment": 2, "end_masses": [0.5, 0]}
+        wanted = {"type": "rotational", "stiffness": 50, "axis": [0, 1, 0], "angle": -30, "moment": 2}
         self.assertEqual({key: keys[key] for key in wanted}, wanted)
-        self.assertNotIn("length", keys)
+        self.assertFalse({"length", "end_masses"} & set(keys))
+        spring.ConnectorKind = "Spring"
+        self.assertEqual(self.check()["connectors"][0]["end_masses"], [0.5, 0])
 
     def test_extra_keys_reach_bodies_their_joints_and_probes(self):
-        self.analysis.AnalysisType = "Motion"
+        self.analysis.AnalysisType, self.analysis.AirDensity = "Motion", "1.2 kg/m^3"
         body = self.part(objects.SlidingBody, "body")
         body.Beam, body.PlaceKind = self.beam, "Fraction"
         body.ExtraKeys = '{"drag_area": 0.3, "carried_as": "point"}'

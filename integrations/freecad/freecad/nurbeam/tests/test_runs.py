@@ -54,9 +54,9 @@ class Faults(DocumentTest):
         connector = objects.make(objects.Connector, self.document, "connector", self.analysis)
         connector.FromObject, connector.ToObject, connector.ToPlaceKind, connector.ToPlaceLength = self.beam, other, "Length", "2 m"
         self.expect(joint, "Beams")
+        self.document.removeObject(joint.Name)
         self.expect(connector, "ToPlaceLength")
-        for obj in (joint, connector):
-            self.document.removeObject(obj.Name)
+        self.document.removeObject(connector.Name)
         stop = objects.make(objects.Stop, self.document, "stop", self.analysis)
         stop.Beam, stop.Restitution = self.beam, 3
         self.expect(stop, "Restitution")
