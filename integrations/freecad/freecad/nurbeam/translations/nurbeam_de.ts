@@ -923,10 +923,6 @@
         <translation>Körper</translation>
     </message>
     <message>
-        <source>Bore</source>
-        <translation>Innenradius</translation>
-    </message>
-    <message>
         <source>Both</source>
         <translation>Beide</translation>
     </message>
@@ -1527,10 +1523,6 @@
         <translation>Querschnitt</translation>
     </message>
     <message>
-        <source>Section by</source>
-        <translation>Querschnitt nach</translation>
-    </message>
-    <message>
         <source>Select in the 3-D view, then press again to take the selection</source>
         <translation>In der 3D-Ansicht auswählen, dann nochmals drücken, um die Auswahl zu übernehmen</translation>
     </message>
@@ -1793,6 +1785,14 @@
     <message>
         <source>{} s to go</source>
         <translation>noch {} s</translation>
+    </message>
+    <message>
+        <source>Inner radius</source>
+        <translation type="unfinished">Innenradius</translation>
+    </message>
+    <message>
+        <source>Kind of section</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

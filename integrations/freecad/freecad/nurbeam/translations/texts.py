@@ -33,12 +33,12 @@ def _of_tables():
 
 # Captions of properties where the name alone would not do.
 LABELS = {
-    "BendRadius": "Minimum bend radius", "BetweenBodies": "Between two bodies", "ColourBy": "Colour", "DirectionOf": "Along edge or face",
+    "BendRadius": "Minimum bend radius", "BetweenBodies": "Between two bodies", "Bore": "Inner radius", "ColourBy": "Colour", "DirectionOf": "Along edge or face",
     "Every": "Store every", "ExtremeFibre": "Extreme fibre", "FromFlip": "Flip start", "FromFraction": "Start: fraction",
     "FromMass": "Start: mass", "FromObject": "Start", "FromPlaceKind": "Start: position by", "FromPlaceLength": "Start: length",
     "FromPoint": "Start: point", "FromSlope": "Start: slope", "Guide": "Rigid curve", "LengthKind": "Length by", "MovesWith": "Shown by solid",
     "PlaceKind": "Position by", "PlaceLength": "Length from start", "Pull": "Pulling force", "PullMass": "Pulling mass",
-    "SecondMoment": "Second moment of area", "SecondMomentY": "About the upright axis", "SectionKind": "Section by", "Slack": "Slack [%]",
+    "SecondMoment": "Second moment of area", "SecondMomentY": "About the upright axis", "SectionKind": "Kind of section", "Slack": "Slack [%]",
     "Start": "State at time 0", "StressFree": "Stress-free shape", "Table": "Table over time", "ToFlip": "Flip end",
     "ToFraction": "End: fraction", "ToMass": "End: mass", "ToObject": "End", "ToPlaceKind": "End: position by", "ToPlaceLength": "End: length",
     "ToPoint": "End: point", "ToSlope": "End: slope", "Up": "Upright direction",
