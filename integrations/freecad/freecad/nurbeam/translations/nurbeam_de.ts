@@ -1788,11 +1788,11 @@
     </message>
     <message>
         <source>Inner radius</source>
-        <translation type="unfinished">Innenradius</translation>
+        <translation>Innenradius</translation>
     </message>
     <message>
         <source>Kind of section</source>
-        <translation type="unfinished"></translation>
+        <translation>Art des Querschnitts</translation>
     </message>
 </context>
 </TS>
