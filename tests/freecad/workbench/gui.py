@@ -16,7 +16,7 @@ from PySide import QtCore, QtGui
 PICTURES = os.environ["NURBEAM_PICTURES"]
 report = open("gui_report", "w")
 problems = []
-faulthandler.dump_traceback_later(int(os.environ.get("NURBEAM_PATIENCE", "180")), exit=True, file=report)  # where it hangs
+faulthandler.dump_traceback_later(int(os.environ.get("NURBEAM_PATIENCE", "270")), exit=True, file=report)  # where it hangs
 
 
 def expect(what, condition):
@@ -115,7 +115,10 @@ def test_workbench():
     settle(0.5)
     expect("the workbench is active", Gui.activeWorkbench().name() == "NurbeamWorkbench")
     known = [name for name in Gui.listCommands() if name.startswith("Nurbeam_")]
-    expect(f"17 commands are there, not {len(known)}", len(known) == 17)
+    expect(f"18 commands are there, not {len(known)}", len(known) == 18)
+    infos = [Gui.Command.get(name).getInfo() for name in known]
+    expect("all commands have tooltips", all(info["toolTip"] and info["menuText"] for info in infos))
+    expect("without a document none is active", not any(Gui.Command.get(name).isActive() for name in known))
     expect("all commands have icons", all(not Gui.Command.get(n).getAction()[0].icon().isNull() for n in known if Gui.Command.get(n).getAction()))
 
 
@@ -238,7 +241,7 @@ def look_at_result(document, result):
     for frame in (10, 30, 50):
         panel.slider.setValue(frame)
         settle(0.1)
-    panel.colour.setCurrentText("bending_moment")
+    panel.colour.setCurrentText("Bending moment")
     expect("looking leaves the document as it was", not Gui.ActiveDocument.Modified)
     picture("results")
     panel.tube.setChecked(True)
@@ -273,8 +276,46 @@ def test_gate():
     expect("vertices may not", not gate.allow(None, None, "Sketch.Vertex1"))
 
 
+def test_quantities_in_their_own_units(document):
+    from freecad.nurbeam import objects
+
+    connector = objects.make(objects.Connector, document, analysis=next(o for o in document.Objects if objects.type_of(o) == objects.Analysis.TYPE))
+    connector.RotationalStiffness = "2 N*m/rad"
+    panel = panel_of(connector)
+    panel.fields["ConnectorKind"].setCurrentText("Rotational")
+    line = panel.fields["RotationalStiffness"]
+    expect(f"a stiffness has its own unit: {line.text()}", line.text() == "2 N*m/rad")
+    for text, shown, value in (("3 N*m/deg", "", 540 / math.pi), ("7 kg", "red", 7), ("= 4 N * 1 m / 1 rad", "", 4)):
+        write(line, text)
+        document.recompute()
+        found = connector.RotationalStiffness.getValueAs("N*m/rad").Value
+        expect(f"{text} is {found}", abs(found - value) < 1e-9 and shown in line.styleSheet())
+    close(False)
+    document.removeObject(connector.Name)
+
+
 def titles():
     return [w.windowTitle() for w in Gui.getMainWindow().findChildren(QtGui.QWidget) if w.isVisible()]
+
+
+def test_a_connector_is_a_line_between_its_ends(document, beam):
+    from freecad.nurbeam import objects
+
+    connector = objects.make(objects.Connector, document, analysis=objects.analysis_of(beam))
+    point = document.addObject("Part::Feature", "Anchor")
+    point.Shape = Part.Vertex(0, 0, 500)
+    span = connector.ViewObject.Proxy.symbol
+    expect("one without ends is not shown", span._switch.whichChild.getValue() == -1)
+    connector.FromObject, connector.FromPlaceKind, connector.ToPoint = beam, "End", (point, ["Vertex1"])
+    document.recompute()
+    ends = [p.getValue() for p in span._points.point.getValues()]
+    expect(f"its line goes from beam to point: {ends}", ends[1] == (0, 0, 500) and span._switch.whichChild.getValue() == -3)
+    panel = panel_of(connector)
+    expect("of a point in space no length is asked", not panel.fields["ToPlaceKind"].isVisibleTo(panel.form))
+    picture("connector")
+    close(False)
+    document.removeObject(connector.Name)
+    document.removeObject(point.Name)
 
 
 def test_faults(document, beam):
@@ -341,6 +382,147 @@ def test_cable():
     expect("it follows its length", cable.Shape.Edges[0].Length != before and cable.State == ["Up-to-date"])
 
 
+def test_a_new_user(folder):
+    """A sketch with an arc, a pipe, hung and loaded, run, looked at, exported: by the panels alone."""
+    import subprocess
+
+    from freecad.nurbeam import objects
+    from freecad.nurbeam.case.write_case import written_case
+    from freecad.nurbeam.run.run_analysis import Run
+
+    document = FreeCAD.newDocument("NewUser")
+    sketch = document.addObject("Sketcher::SketchObject", "Sketch")
+    sketch.Placement = FreeCAD.Placement(Vector(0, 0, 0), FreeCAD.Rotation(Vector(1, 0, 0), 90))
+    sketch.addGeometry(Part.LineSegment(Vector(0, 0, 0), Vector(500, 0, 0)))
+    sketch.addGeometry(Part.ArcOfCircle(Part.Circle(Vector(500, 200, 0), Vector(0, 0, 1), 200), -math.pi / 2, 0))
+    sketch.addGeometry(Part.LineSegment(Vector(700, 200, 0), Vector(700, 600, 0)))
+    document.recompute()
+    Gui.activeDocument().activeView().viewFront()
+    select(sketch)
+    beam_panel = made_by("Nurbeam_Beam")
+    beam = beam_panel.obj
+    beam_panel.fields["SectionKind"].setCurrentText("Pipe")
+    beam_panel.show_property("Radius")
+    for name, text in (("Radius", "12 mm"), ("Bore", "10 mm")):
+        write(beam_panel.fields[name], text)
+    picture("user_section")
+    beam_panel.show_property("Material")
+    beam_panel.fields["Material"].setCurrentText("Steel-S235JR")
+    picture("user_material", fit=False)
+    close(True)
+    expect(f"the sketch is a pipe of S235JR: {beam.getStatusString()}", beam.Material.Label == "Steel-S235JR" and beam.Bore.Value == 10)
+    made_by("Nurbeam_Support")
+    close(True)
+    load_panel = made_by("Nurbeam_Load")
+    load = load_panel.obj
+    expect("a load stands at the end where nothing else is said", load.PlaceKind == "End")
+    write(load_panel.fields["Force"], "80 N")
+    wait_for(lambda: load.Position.Length > 1, 5)
+    picture("user_load")
+    close(True)
+    analysis = objects.analysis_of(beam)
+    panel = panel_of(analysis)
+    panel.fields["AnalysisType"].setCurrentText("Equilibrium")
+    panel.run_button.click()
+    wait_for(lambda: not Run.running, 60)
+    expect(f"the run is done: {analysis.Message}", analysis.Status == "Done")
+    settle(0.3)
+    picture("user_run", fit=False)
+    panel.results_button.click()
+    expect("the results are open", wait_for(lambda: dialog() and objects.result_of(analysis).Label in titles(), 20))
+    picture("user_results")
+    close(True)
+    kept = sag_of_kept_shape(document)
+    path = os.path.join(folder, "user", "case.json")
+    export_by_dialog(path)
+    done = subprocess.run([os.environ["NURBEAM_COMMAND"], "run", path, "--quiet", "--out", os.path.join(folder, "user", "out")], timeout=60)
+    expect("the exported case runs", done.returncode == 0)
+    expect("with its axes as STEP", os.path.getsize(os.path.join(folder, "user", "axes.step")) > 1000)
+    with open(path, encoding="utf-8") as stream:
+        expect("it is the case of the document", stream.read() == written_case(analysis).text)
+    expect(f"the pipe bends down by {kept:.4g} mm", 1 < kept < 100)
+
+
+def made_by(command):
+    """The panel of the object that a command makes."""
+    from freecad.nurbeam import panels
+
+    opened = []
+    make = panels.panel_of
+    panels.panel_of = lambda each: opened.append(make(each)) or opened[-1]
+    try:
+        run_command(command)
+    finally:
+        panels.panel_of = make
+    return opened[0]
+
+
+def sag_of_kept_shape(document):
+    """How far the end of the kept shape lies below that of the drawing [mm]."""
+    run_command("Nurbeam_KeepFrame")
+    shape = next(o for o in document.Objects if o.Name.startswith("DeformedShape"))
+    edge = shape.Shape.Edges[0]
+    expect("a kept shape has the radii of its pipe", abs(shape.Radius.Value - 12) < 1e-9 and abs(shape.Bore.Value - 10) < 1e-9)
+    return 600 - max(edge.valueAt(edge.FirstParameter).z, edge.valueAt(edge.LastParameter).z)
+
+
+def export_by_dialog(path):
+    os.makedirs(os.path.dirname(path))
+    dialogs = QtGui.QFileDialog.getSaveFileName, QtGui.QMessageBox.question
+    QtGui.QFileDialog.getSaveFileName = lambda *_: (path, "")
+    QtGui.QMessageBox.question = lambda *_: QtGui.QMessageBox.Yes
+    try:
+        run_command("Nurbeam_ExportCase")
+    finally:
+        QtGui.QFileDialog.getSaveFileName, QtGui.QMessageBox.question = dialogs
+
+
+def test_material_and_edges_of_two_objects():
+    from freecad.nurbeam import objects
+
+    document = FreeCAD.newDocument("Frame")
+    for name, start, end in (("Long", Vector(0, 0, 0), Vector(500, 0, 0)), ("Short", Vector(500, 0, 0), Vector(500, 0, 300))):
+        document.addObject("Part::Feature", name).Shape = Part.makeLine(start, end)
+    document.recompute()
+    Gui.Selection.clearSelection()
+    for name in ("Long", "Short"):
+        Gui.Selection.addSelection("Frame", name, "Edge1")
+    run_command("Nurbeam_Beam")
+    close(True)
+    beam = next(o for o in document.Objects if objects.type_of(o) == objects.Beam.TYPE)
+    expect(f"edges of two objects are one beam of {beam.Length}", beam.Length.Value == 800)
+    steel = beam.Material
+    run_command("Nurbeam_Material")
+    line = next(w for w in Gui.getMainWindow().findChildren(QtGui.QLineEdit) if w.isVisible() and w.placeholderText())
+    write(line, "al-zn4")
+    write(line, "alzn4")
+    picture("material")
+    close(True)
+    expect(f"the beam has the card that was chosen: {beam.Material.Label}", beam.Material.Label.startswith("AlZn4"))
+    document.undo()
+    expect("which is one step of undo", beam.Material == steel and len(document.findObjects(Label="AlZn4.*")) == 0)
+
+
+def test_german():
+    from freecad.nurbeam import objects
+
+    document = FreeCAD.getDocument("Frame")
+    beam = next(o for o in document.Objects if objects.type_of(o) == objects.Beam.TYPE)
+    Gui.setLocale("German")
+    settle(0.5)
+    panel = panel_of(beam)
+    names = [panel.tabs.tabText(i) for i in range(panel.tabs.count())]
+    expect(f"tabs are German: {names}", names[:2] == ["Achse", "Querschnitt"] and names[-1] == "Mehr")
+    panel.fields["SectionKind"].setCurrentText("Rohr")
+    expect(f"a choice is written as the document has it: {beam.SectionKind}", beam.SectionKind == "Pipe")
+    panel.show_property("Bore")
+    picture("german")
+    close(False)
+    expect("menus are German", Gui.Command.get("Nurbeam_Support").getAction()[0].text().replace("&", "") == "Lager")
+    Gui.setLocale("English")
+    settle(0.3)
+
+
 def test_two_analyses():
     from freecad.nurbeam import objects
     from freecad.nurbeam.run.run_analysis import Run
@@ -362,6 +544,10 @@ def test_two_analyses():
     first.ViewObject.Proxy.doubleClicked(first.ViewObject)
     settle(0.3)
     close(True)
+    run_command("Nurbeam_Support")
+    close(True)
+    expect("the second support of a beam stands at its end", first.Group[-1].PlaceKind == "End")
+    document.removeObject(first.Group[-1].Name)
     run_command("Nurbeam_Probe")
     close(True)
     expect("a double click makes the other one active", len(first.Group) == 3 and len(second.Group) == 1)
@@ -442,7 +628,7 @@ def test_zip_line():
     panel = panel_of(objects.result_of(analysis))
     panel.slider.setValue(0)
     picture("zip_line_start")
-    panel.colour.setCurrentText("velocity")
+    panel.colour.setCurrentText("Velocity")
     panel.slider.setValue(150)
     picture("zip_line")
     shift = trolley.ViewObject.RootNode[0].translation.getValue().getValue()
@@ -464,8 +650,13 @@ def main():
     test_hang_load_and_run(document, beam)
     test_gate()
     test_every_panel_opens(document, beam)
+    test_quantities_in_their_own_units(document)
+    test_a_connector_is_a_line_between_its_ends(document, beam)
     test_faults(document, beam)
     test_cable()
+    test_a_new_user(folder)
+    test_material_and_edges_of_two_objects()
+    test_german()
     test_zip_line()
     test_a_document_that_is_opened_again()
     test_two_analyses()

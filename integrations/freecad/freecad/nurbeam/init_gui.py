@@ -24,6 +24,8 @@ class NurbeamWorkbench(FreeCADGui.Workbench):
         return "Gui::PythonWorkbench"
 
 
+FreeCADGui.addLanguagePath(os.path.join(_HERE, "translations"))
+FreeCADGui.updateLocale()
 FreeCADGui.addPreferencePage(os.path.join(_HERE, "resources", "ui", "preferences.ui"), "nurbeam")
 FreeCADGui.addWorkbench(NurbeamWorkbench())
 

@@ -29,19 +29,19 @@ def on_beam(obj, writer, path):
     return {"beam": writer.beam_name(obj, "Beam"), "at": place_of(obj, writer, f"{path}.at")}
 
 
-def _slope(obj, keys, writer, path):
-    writer.place(f"{path}.slope", obj, "Slope")
-    if obj.Slope != "Automatic":
-        keys["slope"] = obj.Slope.lower()
+def _slope(obj, keys, writer, path, prefix=""):
+    writer.place(f"{path}.slope", obj, f"{prefix}Slope")
+    if getattr(obj, f"{prefix}Slope") != "Automatic":
+        keys["slope"] = getattr(obj, f"{prefix}Slope").lower()
 
 
-def _table(obj, writer, path, units):
+def _table(obj, writer, path):
     """The rows of the table of an object; None where it has none."""
     writer.place(path, obj, "Range")
     if obj.Table is None:
         return None
     with writer.faults_of(obj, "Range"):
-        return rows_of_table(obj.Table, obj.Range, units)
+        return rows_of_table(obj.Table, obj.Range, obj.Proxy.TABLE_UNITS)
     return None
 
 
@@ -56,12 +56,17 @@ def support_keys(obj, name, writer, path):
             keys["mass"] = mass
     if obj.SupportKind == "Pinned" and obj.HingeAxis.Length > 0:
         keys["axis"] = vector(obj.HingeAxis)
-    if rows := _table(obj, writer, f"{path}.motion", ("s", "m", "m", "m")):
+    if rows := _table(obj, writer, f"{path}.motion"):
         keys["motion"] = rows
     for key, prop in (("direction", "Direction"), ("force", "Pull"), ("mass", "PullMass"), ("axis", "HingeAxis")):
         writer.place(f"{path}.{key}", obj, prop)
     _slope(obj, keys, writer, path)
     return keys
+
+
+# Extra keys of a sliding body that are those of the body; all others are of its joint.
+BODY_KEYS = ("mass", "roll_inertia", "drag_area", "position", "inertia", "axes", "points", "turned", "angular_velocity", "rotor",
+             "fastened", "velocity")  # fmt: skip
 
 
 def body_keys(obj, name, writer, path):
@@ -81,7 +86,7 @@ def sliding_joint_keys(obj, name, writer, path):
         keys["speed"] = speed
     if release := si(obj.Release, "s"):
         keys["release"] = release
-    if rows := _table(obj, writer, f"{path}.motion", ("s", "m")):
+    if rows := _table(obj, writer, f"{path}.motion"):
         keys["motion"] = {"table": rows}
     friction = {}
     if obj.Friction:
@@ -117,7 +122,7 @@ def load_keys(obj, writer, path):
         if obj.Follower:
             keys["follower"] = True
     keys[key] = size if key == "torque_per_length" else _directed(obj, size, writer)
-    if rows := _table(obj, writer, f"{path}.time", ("s", "1")):
+    if rows := _table(obj, writer, f"{path}.time"):
         keys["time"] = rows
     if obj.LoadKind == "Force":
         _slope(obj, keys, writer, path)
@@ -157,13 +162,12 @@ def _connector_end(obj, prefix, writer, path):
         return None
     if target in writer.bodies:
         return {"body": writer.bodies[target]}
-    return {"beam": writer.beam_name(obj, f"{prefix}Object"), "at": place_of(obj, writer, f"{path}.at", prefix)}
+    end = {"beam": writer.beam_name(obj, f"{prefix}Object"), "at": place_of(obj, writer, f"{path}.at", prefix)}
+    _slope(obj, end, writer, path, prefix)
+    return end
 
 
-def connector_keys(obj, name, writer, path):
-    writer.place(path, obj, "ConnectorKind")
-    keys = {"name": name, "from": _connector_end(obj, "From", writer, f"{path}.from"),
-            "to": _connector_end(obj, "To", writer, f"{path}.to"), "type": obj.ConnectorKind.lower().replace(" ", "-")}  # fmt: skip
+def _write_stretched(obj, keys):
     if obj.ConnectorKind != "Rod":
         keys["stiffness"] = si(obj.Stiffness, "N/m")
         if damping := si(obj.Damping, "N*s/m"):
@@ -174,7 +178,32 @@ def connector_keys(obj, name, writer, path):
         keys["force"] = si(obj.Force, "N")
     if obj.Direction.Length > 0:
         keys["direction"] = vector(obj.Direction)
-    names = (("stiffness", "Stiffness"), ("damping", "Damping"), ("length", "FreeLength"), ("force", "Force"), ("direction", "Direction"))
+    masses = [si(obj.FromMass, "kg"), si(obj.ToMass, "kg")]
+    if any(masses):
+        keys["end_masses"] = masses
+    return (("stiffness", "Stiffness"), ("damping", "Damping"), ("length", "FreeLength"), ("force", "Force"), ("direction", "Direction"),
+            ("end_masses", "FromMass"))  # fmt: skip
+
+
+def _write_rotational(obj, keys):
+    keys["stiffness"] = si(obj.RotationalStiffness, "N*m/rad")
+    if obj.RotationAxis.Length > 0:
+        keys["axis"] = vector(obj.RotationAxis)
+    for key, prop, unit in (("damping", "RotationalDamping", "N*m*s/rad"), ("angle", "FreeAngle", "deg"), ("moment", "Moment", "N*m")):
+        if value := si(getattr(obj, prop), unit):
+            keys[key] = value
+    return (("stiffness", "RotationalStiffness"), ("damping", "RotationalDamping"), ("axis", "RotationAxis"), ("angle", "FreeAngle"),
+            ("moment", "Moment"))  # fmt: skip
+
+
+def connector_keys(obj, name, writer, path):
+    writer.place(path, obj, "ConnectorKind")
+    keys = {"name": name, "from": _connector_end(obj, "From", writer, f"{path}.from"),
+            "to": _connector_end(obj, "To", writer, f"{path}.to"), "type": obj.ConnectorKind.lower().replace(" ", "-")}  # fmt: skip
+    if obj.ConnectorKind == "Rotational":
+        names = _write_rotational(obj, keys)
+    else:
+        names = _write_stretched(obj, keys)
     for key, prop in names:
         writer.place(f"{path}.{key}", obj, prop)
     return keys

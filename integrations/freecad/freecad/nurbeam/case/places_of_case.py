@@ -4,6 +4,10 @@ import re
 from typing import Any, NamedTuple, Optional
 
 
+# The path of a part or a key in a case.
+PLACE = r"(?:beams|bodies|supports|sliding_joints|loads|joints|connectors|stops|analysis|output|gravity|air)\b[^\s:]*"
+
+
 class Place(NamedTuple):
     obj: Any
     prop: str
@@ -11,8 +15,8 @@ class Place(NamedTuple):
 
 def place_in_case(where):
     """The path in a case that a message is about: "case.json: beams[0].section" is about beams[0].section; "" for none."""
-    found = re.search(r"(?:^|: )((?:beams|bodies|supports|sliding_joints|loads|joints|connectors|stops|analysis|output|gravity|air)\b\S*)$", where)
-    return found[1].rstrip(":") if found else ""
+    found = re.search(rf"(?:^|: )({PLACE})$", where)
+    return found[1] if found else ""
 
 
 def object_at(places, where) -> Optional[Place]:

@@ -77,7 +77,7 @@ _MATERIAL = {"density": ("Density", "kg/m^3"), "youngs_modulus": ("YoungsModulus
 def material_of(beam):
     """The keys of the material card of a beam. ValueError where it has none, or the card lacks a number."""
     if beam.Material is None:
-        raise ValueError("no material is chosen; choose one of the cards, or make one by Arch or FEM")
+        raise ValueError("no material is chosen; choose one of the cards")
     card = getattr(beam.Material, "Material", None)
     if not isinstance(card, dict):
         raise ValueError(f"{beam.Material.Label} is no material of Arch or FEM")

@@ -52,14 +52,14 @@ def name_for_case(label, taken, name):
     return f"{plain} ({name})" if plain in taken else plain
 
 
-def merged(case, text):
-    """The keys of an object with those of a JSON text merged over them. ValueError where it is none."""
+def merged(case, text, is_meant=lambda key: True):
+    """The keys of an object with those of a JSON text merged over them that are meant. ValueError where it is none."""
     if not text.strip():
         return case
     extra = json.loads(text)
     if not isinstance(extra, dict):
         raise ValueError('expected keys with their values, as in {"elements": {"count": 40}}')
-    return _merge(case, extra)
+    return _merge(case, {key: value for key, value in extra.items() if is_meant(key)})
 
 
 def _merge(case, extra):

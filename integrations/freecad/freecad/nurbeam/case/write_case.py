@@ -87,12 +87,14 @@ class _Writer:
         names = {}
         for obj in group:
             names[obj] = name_for_case(obj.Label, set(names.values()), obj.Name)
+            if names[obj] != name_for_case(obj.Label, set(), obj.Name):
+                self.note(obj, "Label", f'another one has this name, too; results name this one "{names[obj]}"')
         return names
 
-    def with_extra(self, obj, keys, path=""):
+    def with_extra(self, obj, keys, path="", is_meant=lambda key: True):
         """The keys with the extra ones of the object; messages about those that are new belong to ExtraKeys."""
         with self.faults_of(obj, "ExtraKeys"):
-            result = merged(keys, obj.ExtraKeys)
+            result = merged(keys, obj.ExtraKeys, is_meant)
             for key in result.keys() - keys.keys():
                 self.place(f"{path}.{key}" if path else key, obj, "ExtraKeys")
             return result
@@ -120,28 +122,22 @@ def written_case(analysis):
 
 
 def _write_lists(found, case, writer):
-    def write(key, group, keys_of, names=None):
+    def write(key, group, keys_of, names=None, is_meant=lambda key: True):
         names = names if names is not None else writer.named(group)
         paths = [f"{key}[{i}]" for i in range(len(group))]
-        items = [writer.with_extra(obj, keys_of(obj, names[obj], writer, path), path) for obj, path in zip(group, paths)]
+        items = [writer.with_extra(obj, keys_of(obj, names[obj], writer, path), path, is_meant) for obj, path in zip(group, paths)]
         if items:
             case[key] = items
 
     write("beams", found[objects.Beam], beam_keys, writer.beams)
     bodies = found[objects.SlidingBody]
-    _write_plain("bodies", bodies, parts.body_keys, writer.bodies, case, writer)
+    write("bodies", bodies, parts.body_keys, writer.bodies, parts.BODY_KEYS.__contains__)
     write("supports", found[objects.Support], parts.support_keys)
-    write("sliding_joints", bodies, parts.sliding_joint_keys, writer.bodies)
+    write("sliding_joints", bodies, parts.sliding_joint_keys, writer.bodies, lambda key: key not in parts.BODY_KEYS)
     write("loads", found[objects.Load], lambda obj, _, w, path: parts.load_keys(obj, w, path))
     write("joints", found[objects.Joint], parts.joint_keys)
     write("connectors", found[objects.Connector], parts.connector_keys)
     write("stops", found[objects.Stop], lambda obj, _, w, path: parts.stop_keys(obj, w, path))
-
-
-def _write_plain(key, group, keys_of, names, case, writer):
-    """Extra keys of a sliding body are those of its joint."""
-    if group:
-        case[key] = [keys_of(obj, names[obj], writer, f"{key}[{i}]") for i, obj in enumerate(group)]
 
 
 def _write_surroundings(analysis, case, writer):
@@ -189,7 +185,8 @@ def output_keys(analysis, probes, writer):
         keys["every"] = every
     if probes:
         names = writer.named(probes)
-        keys["probes"] = [parts.probe_keys(obj, names[obj], writer, f"output.probes[{i}]") for i, obj in enumerate(probes)]
+        paths = [f"output.probes[{i}]" for i in range(len(probes))]
+        keys["probes"] = [writer.with_extra(obj, parts.probe_keys(obj, names[obj], writer, path), path) for obj, path in zip(probes, paths)]
     return keys
 
 

@@ -2,10 +2,10 @@
 
 import FreeCADGui
 
-from . import create, fem, results, run
+from . import create, fem, material, results, run
 
 TOOLBARS = (
-    ("model", (create.NewAnalysis, create.NewBeam, create.NewSupport, create.NewBody, create.NewLoad, create.NewJoint,
+    ("model", (create.NewAnalysis, material.NewMaterial, create.NewBeam, create.NewSupport, create.NewBody, create.NewLoad, create.NewJoint,
                create.NewConnector, create.NewStop, create.NewProbe)),
     ("cable", (create.NewCable,)),
     ("solve", (run.Check, run.RunAnalysis, run.ExportCase, fem.TakeOverFem)),

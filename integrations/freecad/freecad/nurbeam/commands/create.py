@@ -5,9 +5,9 @@ import FreeCADGui
 
 from .. import objects
 from ..geometry import places
-from ..panels.references import link_of_selection, tell_what_is_left_out
+from ..objects.material_card import first_card
+from ..panels.references import links_of_selection, only_link
 from .command import Command, activate, active_analysis
-from .materials import first_material
 
 
 def new_analysis(document):
@@ -24,24 +24,26 @@ class NewPart(Command):
     def Activated(self):
         document = FreeCAD.ActiveDocument
         document.openTransaction(self.TITLE)
-        link, selected = link_of_selection(), FreeCADGui.Selection.getSelection()
+        links, selected = links_of_selection(), FreeCADGui.Selection.getSelection()
         analysis = active_analysis() or new_analysis(document)
         obj = objects.make(self.CLASS, document, analysis=analysis)
-        self.fill(obj, analysis, link, selected)
+        self.fill(obj, analysis, links, selected)
         FreeCADGui.Selection.clearSelection()
         document.recompute()
         FreeCADGui.ActiveDocument.setEdit(obj.Name)
         return obj
 
-    def fill(self, obj, analysis, link, selected):
+    def fill(self, obj, analysis, links, selected):
         """Takes over what is selected."""
         beams = objects.members(analysis, objects.Beam)
         chosen = [each for each in selected if each in beams]
         if "Beam" in obj.PropertiesList and (chosen or beams):
             obj.Beam = (chosen or beams)[0]
-        if link and "Point" in obj.PropertiesList and "Vertex" in str(link[1]):
-            obj.PlaceKind = "At a point"
-            obj.Point = link
+        vertices = [(root, [path]) for root, path in places.parts_of_link(links) if "Vertex" in path]
+        if vertices and "Point" in obj.PropertiesList:
+            obj.Point = only_link(vertices)
+            if "PlaceKind" in obj.PropertiesList:
+                obj.PlaceKind = "At a point"
 
 
 class NewAnalysis(NewPart):
@@ -60,15 +62,14 @@ class NewBeam(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Beam", "Beam", "beam", objects.Beam
     HELP = "A beam along the selected edges, wire or sketch, or of a selected pipe"
 
-    def fill(self, obj, analysis, link, selected):
-        obj.Material = first_material(obj.Document)
-        if not link:
+    def fill(self, obj, analysis, links, selected):
+        obj.Material = first_card(obj.Document)
+        if not links:
             return
-        tell_what_is_left_out()
-        obj.Label = f"Beam {link[0].Label}"
+        obj.Label = f"Beam {links[0][0].Label}"
         try:
-            obj.Axis = link = places.whole_bodies(link)
-            if places.has_body(link):
+            obj.Axis = links = places.whole_bodies(links)
+            if places.has_body(links):
                 obj.SectionKind = "Of the pipe"
         except (places.NoPlace, ValueError):
             pass  # the recompute says so at the object
@@ -78,13 +79,19 @@ class NewSupport(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Support", "Support", "support", objects.Support
     HELP = "What holds a place of a beam"
 
+    def fill(self, obj, analysis, links, selected):
+        super().fill(obj, analysis, links, selected)
+        others = [each for each in objects.members(analysis, objects.Support) if each is not obj and each.Beam is obj.Beam]
+        if any(each.PlaceKind == "Start" for each in others) and obj.PlaceKind == "Start":
+            obj.PlaceKind = "End"
+
 
 class NewBody(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_SlidingBody", "Sliding body", "body", objects.SlidingBody
     HELP = "A body that slides on a beam"
 
-    def fill(self, obj, analysis, link, selected):
-        super().fill(obj, analysis, link, selected)
+    def fill(self, obj, analysis, links, selected):
+        super().fill(obj, analysis, links, selected)
         solids = [each for each in selected if hasattr(each, "Shape") and each.Shape.Solids]
         if solids:
             obj.MovesWith = solids[0]
@@ -94,12 +101,16 @@ class NewLoad(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Load", "Load", "load", objects.Load
     HELP = "A force or a moment on a beam, at a place or along it"
 
+    def fill(self, obj, analysis, links, selected):
+        obj.PlaceKind = "End"  # the start has the first support
+        super().fill(obj, analysis, links, selected)
+
 
 class NewJoint(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Joint", "Joint", "joint", objects.Joint
     HELP = "What ties the selected beams, which meet"
 
-    def fill(self, obj, analysis, link, selected):
+    def fill(self, obj, analysis, links, selected):
         beams = objects.members(analysis, objects.Beam)
         obj.Beams = [each for each in selected if each in beams] or beams[:2]
 
@@ -108,7 +119,7 @@ class NewConnector(NewPart):
     NAME, TITLE, ICON, CLASS = "Nurbeam_Connector", "Connector", "connector", objects.Connector
     HELP = "A spring, rope or rod between beams, bodies and points"
 
-    def fill(self, obj, analysis, link, selected):
+    def fill(self, obj, analysis, links, selected):
         parts = [*objects.members(analysis, objects.Beam), *objects.members(analysis, objects.SlidingBody)]
         for prop, each in zip(("FromObject", "ToObject"), (each for each in selected if each in parts)):
             setattr(obj, prop, each)

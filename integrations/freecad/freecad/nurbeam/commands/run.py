@@ -6,6 +6,7 @@ import FreeCADGui
 from PySide import QtGui
 
 from ..case.export_case import NoCase, export_case
+from ..language import tr
 from ..run.command import Missing
 from .command import Command, active_analysis
 
@@ -52,7 +53,7 @@ class ExportCase(OfAnalysis):
         file, _ = QtGui.QFileDialog.getSaveFileName(FreeCADGui.getMainWindow(), self.TITLE, "case.json", "Case (*.json)")
         if not file:
             return
-        question = "Write the axes of the beams as axes.step beside the case, too?"
+        question = tr("Write the axes of the beams as axes.step beside the case, too?")
         answer = QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), self.TITLE, question)
         try:
             export_case(active_analysis(), os.path.dirname(file), os.path.basename(file), answer == QtGui.QMessageBox.Yes)

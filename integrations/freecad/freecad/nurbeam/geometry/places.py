@@ -23,10 +23,19 @@ class End(NamedTuple):
     """Of unit length: the way in which it leaves the point."""
 
 
-def parts_of_link(link):
-    """(root object, path) of each part that an `App::PropertyXLinkSub` names; the path is "" for the whole object."""
-    if not link:
+def links_of(value):
+    """The links, each to parts of one object, of an `App::PropertyXLinkSub` or an `App::PropertyXLinkSubList`."""
+    if not value:
         return []
+    return list(value) if isinstance(value, list) and isinstance(value[0], tuple) else [value]
+
+
+def parts_of_link(link):
+    """(root object, path) of each part that a property of links names; the path is "" for the whole object."""
+    return [part for each in links_of(link) for part in _parts_of_one(each)]
+
+
+def _parts_of_one(link):
     root, paths = link if isinstance(link, (tuple, list)) else (link, [])
     paths = [paths] if isinstance(paths, str) else list(paths)
     return [(root, path) for path in (paths or [""])]
@@ -61,17 +70,17 @@ def body_of_link(link):
     return shapes[0] if len(shapes) == 1 else Part.makeCompound(shapes)
 
 
-def whole_bodies(link):
-    """The link with the solid that a face bounds in the place of the face, as a click in the view names a face; where it bounds
-    none, the whole object."""
-    paths = []
-    for root, path in parts_of_link(link):
+def whole_bodies(links):
+    """The links with the solid that a face bounds in the place of the face, as a click in the view names a face; where it
+    bounds none, the whole object."""
+    paths = {}
+    for root, path in parts_of_link(links):
         prefix, _, element = path.rpartition(".")
         if element.startswith("Face"):
             path = _path_of_solid(root, f"{prefix}." if prefix else "", int(element[len("Face") :]))
-        if path not in paths:
-            paths.append(path)
-    return (link[0], paths) if paths else link
+        if path not in paths.setdefault(root, []):
+            paths[root].append(path)
+    return list(paths.items())
 
 
 def _path_of_solid(root, prefix, number):

@@ -9,11 +9,11 @@ class DeformedShape(Feature):
     PROPERTIES = (
         Property("LinkHidden", "Result", "Deformed", "The result that it is taken of"),
         Property("String", "BeamName", "Deformed", "The beam, by its name in the case"),
-        Property("Quantity", "Time", "Deformed", "The nearest stored one is taken", "0 s", "s"),
+        Property("Quantity", "Time", "Deformed", "Time of the shape; the nearest stored state is taken", "0 s", "s"),
         Property("Float", "Exaggeration", "Deformed", "Factor on displacements", 1.0),
-        Property("Enumeration", "Form", "Deformed", "The axis, or the axis with its round section", "Curve", choices=("Curve", "Solid")),
-        Property("Length", "Radius", "Deformed", "Of Solid"),
-        Property("Length", "Bore", "Deformed", "Of Solid: inner radius"),
+        Property("Enumeration", "Form", "Deformed", "The axis alone, or a solid with a round section", "Curve", choices=("Curve", "Solid")),
+        Property("Length", "Radius", "Deformed", "Outer radius of the solid"),
+        Property("Length", "Bore", "Deformed", "Inner radius of the solid"),
     )
 
     def compute(self, obj):

@@ -4,9 +4,9 @@ from typing import Any, NamedTuple, Optional, Sequence
 
 import FreeCAD
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2  # 2: the axis of a beam may be of several objects
 OUTPUT = 8  # of addProperty: a value that is written does not ask for a recompute
-READ_ONLY, HIDDEN = 1, 2  # of setEditorMode
+READ_ONLY, HIDDEN_READ_ONLY = 1, 3  # of setEditorMode
 
 
 class Property(NamedTuple):
@@ -65,7 +65,7 @@ class Feature:
                 _add(obj, row)
             elif row.unit and _has_no_unit(getattr(obj, row.name)):
                 setattr(obj, row.name, FreeCAD.Units.Unit(row.unit))
-            mode = HIDDEN if row.hidden else READ_ONLY if row.output else None
+            mode = HIDDEN_READ_ONLY if row.hidden else READ_ONLY if row.output else None
             if mode is not None:
                 obj.setEditorMode(row.name, mode)
         obj.NurbeamType = self.TYPE
@@ -80,7 +80,7 @@ class Feature:
         self.complete(obj)
 
     def migrate(self, obj: Any) -> None:
-        """Carries values of properties that had another name in older documents over to the present one."""
+        """Carries values of properties that had another name or type in older documents over to the present one."""
         version = obj.SchemaVersion if "SchemaVersion" in obj.PropertiesList else 0
         for before, names in sorted(self.RENAMED.items()):
             if version >= before:
@@ -88,6 +88,9 @@ class Feature:
             for old, new in names.items():
                 if old in obj.PropertiesList:
                     _rename(obj, old, next(row for row in self.table() if row.name == new))
+        for row in self.table():
+            if row.name in obj.PropertiesList and obj.getTypeIdOfProperty(row.name) != f"App::Property{row.type}":
+                _change_type(obj, row)
 
     def onChanged(self, obj: Any, prop: str) -> None:
         """A complaint is about values as they were."""
@@ -138,6 +141,13 @@ def _rename(obj: Any, old: str, row: Property) -> None:
     if expression:
         obj.setExpression(row.name, expression)
     obj.removeProperty(old)
+
+
+def _change_type(obj: Any, row: Property) -> None:
+    value = getattr(obj, row.name)
+    obj.removeProperty(row.name)
+    _add(obj, row)
+    setattr(obj, row.name, value)
 
 
 def is_newer(obj: Any) -> bool:

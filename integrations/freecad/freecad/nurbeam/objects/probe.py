@@ -8,6 +8,6 @@ class Probe(Placed):
     TYPE = "Nurbeam::Probe"
     PROPERTIES = (
         *PLACE,
-        Property("Enumeration", "Side", "Probe", "Where forces jump: of the part before or after the place", "After",
+        Property("Enumeration", "Side", "Probe", "Where forces jump: of the part before or after the position", "After",
                  choices=("Before", "After")),
     )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from PySide import QtGui
 
+from ..language import tr
 from .parts import PartPanel
 
 GOALS = {"CableLength": "Length", "Slack": "Slack", "BendRadius": "Bend radius"}
@@ -10,9 +11,9 @@ GOALS = {"CableLength": "Length", "Slack": "Slack", "BendRadius": "Bend radius"}
 class CablePanel(PartPanel):
     def build(self):
         super().build()
-        self.fields["Goal"].currentTextChanged.connect(lambda _: self.show_goal())
-        self.run = QtGui.QPushButton("Run")
-        self.run.setToolTip("Find the cable now, also where it takes longer than a recompute may")
+        self.fields["Goal"].currentIndexChanged.connect(lambda _: self.show_goal())
+        self.run = QtGui.QPushButton(tr("Run"))
+        self.run.setToolTip(tr("Find the cable now, also where it takes longer than a recompute may"))
         self.run.clicked.connect(self.find)
         self.found = QtGui.QLabel()
         self.found.setWordWrap(True)
@@ -41,5 +42,6 @@ class CablePanel(PartPanel):
         if "Invalid" in self.obj.State or self.obj.LengthFound.Value == 0:
             self.found.setText("")
             return
-        self.found.setText(f"Length {self.obj.LengthFound.UserString}, least bend radius {self.obj.LeastRadius.UserString}, "
-                           f"largest tension {self.obj.LargestTension.UserString}")  # fmt: skip
+        found = (self.obj.LengthFound, self.obj.LeastRadius, self.obj.LargestTension)
+        text = tr("Length {}, minimum bend radius {}, maximum tension {}")
+        self.found.setText(text.format(*(quantity.UserString for quantity in found)))

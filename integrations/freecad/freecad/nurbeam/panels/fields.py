@@ -5,10 +5,13 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..language import tr
+from ..objects.material_card import cards_of, make_card, standard_cards
 from .references import ReferenceList
 
 QUANTITIES = ("Length", "Distance", "Area", "Force", "Speed", "Acceleration", "Quantity")
 DIGITS = 10  # that are shown of quantities
+OF_THEIR_OWN = ("kg", "kg*m^2", "N*m", "N*m^2", "N*s/m", "kg/m", "N*m/rad", "N*m*s/rad")  # units that FreeCAD shows as µg, J, mm^3*kg/s^2, ...
 TARGETS = {
     "Beam": (objects.Beam,), "FromObject": (objects.Beam, objects.SlidingBody), "ToObject": (objects.Beam, objects.SlidingBody),
 }  # fmt: skip
@@ -16,10 +19,14 @@ TARGETS = {
 
 def field_of(obj, row):
     """A widget for a row of the table of an object."""
+    if row.unit in OF_THEIR_OWN:
+        return _quantity_in_unit(obj, row)
     if row.type in QUANTITIES:
         return _quantity(obj, row)
+    if row.name == "Material":
+        return _material(obj, row)
     makers = {"Enumeration": _enumeration, "Bool": _bool, "Integer": _integer, "Float": _float, "Vector": _vector,
-              "Link": _link, "XLinkSub": ReferenceList, "LinkList": _link_list}  # fmt: skip
+              "Link": _link, "XLinkSub": ReferenceList, "XLinkSubList": ReferenceList, "LinkList": _link_list}  # fmt: skip
     return makers.get(row.type, _text)(obj, row)
 
 
@@ -39,11 +46,71 @@ def _quantity(obj, row):
     return box
 
 
+def _quantity_in_unit(obj, row):
+    """A line that shows a quantity in the unit of the table, and takes any other; with "=" before it an expression."""
+    expression = dict(obj.ExpressionEngine).get(row.name)
+    value = getattr(obj, row.name).getValueAs(row.unit)
+    edit = QtGui.QLineEdit(f"={expression}" if expression else f"{getattr(value, 'Value', value):.{DIGITS}g} {row.unit}")
+
+    def changed(text):
+        try:
+            _write_quantity(obj, row, text.strip())
+            edit.setStyleSheet("")
+        except (ValueError, ArithmeticError, RuntimeError, TypeError):
+            edit.setStyleSheet("color: red")
+
+    edit.textChanged.connect(changed)
+    return edit
+
+
+def _write_quantity(obj, row, text):
+    is_expression = text.startswith("=")
+    quantity = FreeCAD.Units.Quantity(obj.evalExpression(text[1:]) if is_expression else text)
+    if quantity.Unit == FreeCAD.Units.Unit() and not is_expression:
+        quantity = FreeCAD.Units.Quantity(f"{quantity.Value!r} {row.unit}")
+    if quantity.Unit != FreeCAD.Units.Unit(row.unit):
+        raise ValueError(f"{text} is no quantity in {row.unit}")
+    if is_expression:
+        obj.setExpression(row.name, text[1:])
+        return
+    if row.name in dict(obj.ExpressionEngine):
+        obj.setExpression(row.name, None)
+    setattr(obj, row.name, quantity)
+
+
+def _material(obj, row):
+    """The cards of the document, and below them those that FreeCAD brings, of which one that is chosen comes into the document."""
+    box = QtGui.QComboBox()
+    own, standard = cards_of(obj.Document), standard_cards()
+    box.addItem(tr("(none)"), None)
+    for card in own:
+        box.addItem(card.Label, card.Name)
+    box.insertSeparator(box.count())
+    box.addItems(list(standard))
+    box.setMaxVisibleItems(20)
+    present = obj.Material
+    box.setCurrentIndex(own.index(present) + 1 if present in own else 0)
+
+    def take(index):
+        name = box.itemText(index)
+        if index == 0:
+            obj.Material = None
+        elif box.itemData(index):
+            obj.Material = obj.Document.getObject(box.itemData(index))
+        elif name in standard:
+            obj.Material = make_card(obj.Document, standard[name], name)
+            box.setItemData(index, obj.Material.Name)  # chosen again, it is the same card
+
+    box.currentIndexChanged.connect(take)
+    return box
+
+
 def _enumeration(obj, row):
     box = QtGui.QComboBox()
-    box.addItems(list(row.choices))
-    box.setCurrentText(getattr(obj, row.name))
-    box.currentTextChanged.connect(lambda text: setattr(obj, row.name, text))
+    for choice in row.choices:
+        box.addItem(tr(choice), choice)
+    box.setCurrentIndex(list(row.choices).index(getattr(obj, row.name)))
+    box.currentIndexChanged.connect(lambda index: setattr(obj, row.name, row.choices[index]))
     return box
 
 
@@ -98,8 +165,6 @@ def _vector(obj, row):
 
 def candidates(obj, prop):
     """The objects that a link may point at."""
-    if prop == "Material":
-        return [each for each in obj.Document.Objects if isinstance(getattr(each, "Material", None), dict)]
     if prop == "Table":
         return [each for each in obj.Document.Objects if each.TypeId == "Spreadsheet::Sheet"]
     if prop == "MovesWith":
@@ -112,7 +177,7 @@ def candidates(obj, prop):
 def _link(obj, row):
     box = QtGui.QComboBox()
     targets = [None, *candidates(obj, row.name)]
-    box.addItems(["(none)", *(each.Label for each in targets[1:])])
+    box.addItems([tr("(none)"), *(each.Label for each in targets[1:])])
     present = getattr(obj, row.name)
     box.setCurrentIndex(targets.index(present) if present in targets else 0)
     box.currentIndexChanged.connect(lambda index: setattr(obj, row.name, targets[index]))

@@ -1,10 +1,14 @@
 """The panel of beams, supports, bodies, loads and the like: a form made of the table of the object."""
 
+import re
+
 import FreeCAD
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..language import tr, tr_help
 from ..objects.place import Placed
+from ..translations.texts import label
 from .fields import field_of
 from .task import TaskPanel
 
@@ -38,14 +42,16 @@ SHOWN_WITH = {
         "StopKind": {"Restitution": ("Hard",), "Stiffness": ("Buffer",), "Damping": ("Buffer",)},
     },
     objects.Connector.TYPE: {
-        "ConnectorKind": {"Stiffness": ("Spring", "Tension only", "Compression only"),
-                          "Damping": ("Spring", "Tension only", "Compression only")},
+        "ConnectorKind": {
+            **dict.fromkeys(("Stiffness", "Damping"), ("Spring", "Tension only", "Compression only")),
+            **dict.fromkeys(("LengthKind", "FreeLength", "Force", "Direction", "FromMass", "ToMass"), ("Spring", "Tension only", "Compression only", "Rod")),
+            **dict.fromkeys(("RotationalStiffness", "RotationalDamping", "RotationAxis", "FreeAngle", "Moment"), ("Rotational",)),
+        },
         "LengthKind": {"FreeLength": ("Length",), "Force": ("Force",)},
     },
     objects.DeformedShape.TYPE: {"Form": {"Radius": ("Solid",), "Bore": ("Solid",)}},
 }  # fmt: skip
 LAST, PLACE = "More", "Place"  # groups: the last tab; the one that shares a page with what stands at the place
-LABELS = {"Slack": "Slack [%]"}  # of numbers whose unit no widget shows
 PLACES = {"PlaceLength": ("Length",), "Fraction": ("Fraction",), "Point": ("At a point",)}
 
 
@@ -56,6 +62,15 @@ def rules_of(obj):
         if f"{prefix}PlaceKind" in obj.PropertiesList:
             rules[f"{prefix}PlaceKind"] = {prefix + name: values for name, values in PLACES.items()}
     return rules
+
+
+def _ends(obj):
+    """Of a connector, whose ends may be of a beam, a body, or a point in space."""
+    return [prefix for prefix in ("From", "To") if f"{prefix}Object" in obj.PropertiesList]
+
+
+def _is_of_beam(obj, end):
+    return objects.type_of(getattr(obj, f"{end}Object")) == objects.Beam.TYPE
 
 
 RECOMPUTE_AFTER = 200  # ms without another change
@@ -103,45 +118,56 @@ class PartPanel(TaskPanel):
                 pages[group] = self._page(group)
             self._add(row, pages[group])
         self._order_tabs()
-        for choice in rules_of(self.obj):
-            self.fields[choice].currentTextChanged.connect(lambda _: self.show_rows())
+        for choice in [*rules_of(self.obj), *(f"{end}Object" for end in _ends(self.obj))]:
+            self.fields[choice].currentIndexChanged.connect(lambda _: self.show_rows())
         self.show_rows()
         self._show_message()
 
     def _page(self, group):
         page = QtGui.QWidget()
         layout = QtGui.QFormLayout(page)
-        self.tabs.addTab(page, group)
+        self.tabs.addTab(page, tr(group))
         return layout
 
     def _add(self, row, layout):
         field = field_of(self.obj, row)
-        label = QtGui.QLabel(LABELS.get(row.name) or words(row.name))
-        for widget in (field, label):
-            widget.setToolTip(row.help)
-        layout.addRow(label, field)
-        self.fields[row.name], self.labels[row.name] = field, label
+        caption = QtGui.QLabel(label_of(row.name))
+        for widget in (field, caption):
+            widget.setToolTip(tr_help(row.help))
+        layout.addRow(caption, field)
+        self.fields[row.name], self.labels[row.name] = field, caption
         self.tab_of[row.name] = layout.parentWidget()
 
     def _order_tabs(self):
         for i in range(self.tabs.count()):
-            if self.tabs.tabText(i) == LAST:
+            if self.tabs.tabText(i) == tr(LAST):
                 self.tabs.tabBar().moveTab(i, self.tabs.count() - 1)
                 break
         self.tabs.setCurrentIndex(0)
 
     def show_rows(self):
         """Hides rows that the present choices do not use."""
+        hidden = {name: False for rows in rules_of(self.obj).values() for name in rows}
+        for end in _ends(self.obj):
+            hidden.update({f"{end}{name}": not _is_of_beam(self.obj, end) for name in ("PlaceKind", "PlaceLength", "Fraction", "Slope")})
         for choice, rows in rules_of(self.obj).items():
             for name, values in rows.items():
-                shown = getattr(self.obj, choice) in values
-                self.fields[name].setVisible(shown)
-                self.labels[name].setVisible(shown)
+                hidden[name] |= getattr(self.obj, choice) not in values
+        for end in _ends(self.obj):
+            if not _is_of_beam(self.obj, end):
+                hidden[f"{end}Point"] = getattr(self.obj, f"{end}Object") is not None  # else it is the point in space
+        for name, is_hidden in hidden.items():
+            self.fields[name].setVisible(not is_hidden)
+            self.labels[name].setVisible(not is_hidden)
 
     def _show_message(self):
         wrong = "Invalid" in self.obj.State
-        self.message.setText(self.obj.getStatusString() if wrong else "")
+        self.message.setText(self._in_words(self.obj.getStatusString()) if wrong else "")
         self.message.setStyleSheet("color: #b00020" if wrong else "")
+
+    def _in_words(self, text):
+        """With captions in place of the names of properties."""
+        return re.sub(r"(^|; )(\w+): ", lambda m: f"{m[1]}{label_of(m[2])}: " if m[2] in self.fields else m[0], text)
 
     def show_property(self, prop):
         if prop in self.fields:
@@ -149,6 +175,5 @@ class PartPanel(TaskPanel):
             self.fields[prop].setFocus(QtCore.Qt.OtherFocusReason)
 
 
-def words(name):
-    """"PlaceLength" as "Place length"."""
-    return "".join(" " + c.lower() if c.isupper() and i > 0 else c for i, c in enumerate(name))
+def label_of(name):
+    return tr(label(name))

@@ -5,6 +5,7 @@ import FreeCADGui
 from PySide import QtGui
 
 from ..geometry import places
+from ..language import tr
 
 KINDS = {"Axis": "Edge Solid Wire Face", "Profile": "Edge Face Wire", "Point": "Vertex", "FromPoint": "Vertex", "ToPoint": "Vertex",
          "DirectionOf": "Edge Face", "From": "Face Edge Vertex", "To": "Face Edge Vertex"}  # fmt: skip
@@ -22,23 +23,17 @@ class Gate:
         return not element or not self.kinds or element in self.kinds or (self.is_of_end and places.is_coordinate_system(obj))
 
 
-def link_of_selection():
-    """The selection as the value of an `App::PropertyXLinkSub`; None where nothing is selected.
-
-    Parts of several objects: those of the first, as one link has one root."""
+def links_of_selection():
+    """The selection as links, each to parts of one object; as the value of an `App::PropertyXLinkSubList`."""
     chosen = FreeCADGui.Selection.getSelectionEx("", 0)
-    if not chosen:
-        return None
-    first = chosen[0]
-    return first.Object, [name for name in first.SubElementNames if name] or [""]
+    return [(each.Object, [name for name in each.SubElementNames if name] or [""]) for each in chosen]
 
 
-def tell_what_is_left_out():
-    """Where parts of several objects are selected, of which a link takes those of one."""
-    chosen = FreeCADGui.Selection.getSelectionEx("", 0)
-    if len(chosen) > 1:
-        FreeCAD.Console.PrintWarning(f"nurbeam: of what is selected only {chosen[0].Object.Label} is taken; "
-                                     "to take parts of several objects, join them first (Part, Compound)\n")  # fmt: skip
+def only_link(links):
+    """The first link, for what takes parts of one object; the others are named in the report view."""
+    if len(links) > 1:
+        FreeCAD.Console.PrintWarning(f"nurbeam: of what is selected only {links[0][0].Label} is taken\n")
+    return links[0] if links else None
 
 
 class ReferenceList(QtGui.QWidget):
@@ -52,10 +47,10 @@ class ReferenceList(QtGui.QWidget):
         self.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Maximum)
         self.list = QtGui.QListWidget()
         self.list.setMaximumHeight(64)
-        self.pick = QtGui.QPushButton("Pick")
+        self.pick = QtGui.QPushButton(tr("Pick"))
         self.pick.setCheckable(True)
-        self.pick.setToolTip("Select in the 3-D view, then press again to take the selection")
-        self.clear = QtGui.QPushButton("Clear")
+        self.pick.setToolTip(tr("Select in the 3-D view, then press again to take the selection"))
+        self.clear = QtGui.QPushButton(tr("Clear"))
         buttons = QtGui.QHBoxLayout()
         buttons.addWidget(self.pick)
         buttons.addWidget(self.clear)
@@ -68,17 +63,16 @@ class ReferenceList(QtGui.QWidget):
     def _picked(self, begins):
         if begins:
             FreeCADGui.Selection.addSelectionGate(Gate(self.prop))
-            self.pick.setText("Take the selection")
+            self.pick.setText(tr("Take the selection"))
             return
         self.end_picking()
-        link = link_of_selection()
-        if link is not None:
-            tell_what_is_left_out()
-            self.set_link(places.whole_bodies(link) if self.prop == "Axis" else link)
+        links = links_of_selection()
+        if links:
+            self.set_link(places.whole_bodies(links) if self.prop == "Axis" else only_link(links))
 
     def end_picking(self):
         FreeCADGui.Selection.removeSelectionGate()
-        self.pick.setText("Pick")
+        self.pick.setText(tr("Pick"))
 
     def set_link(self, link):
         setattr(self.obj, self.prop, link)

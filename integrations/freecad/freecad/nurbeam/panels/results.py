@@ -5,6 +5,8 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..language import tr
+from ..run.results import radii_of_beam
 from ..view.animation import COLOURS, UNITS
 
 PLAY_INTERVAL = 40  # ms
@@ -32,7 +34,8 @@ class Legend(QtGui.QWidget):
         low = scale.low if abs(scale.low) > NOUGHT * abs(scale.high) else 0
         self.low.setText(f"{low:.4g}")
         self.high.setText(f"{scale.high:.4g} {unit}".strip())
-        self.setToolTip(f"Colours span 98 % of all values; the least is {scale.least:.6g}, the greatest {scale.greatest:.6g}")
+        text = tr("Colours span 98 % of all values; the minimum is {}, the maximum {}")
+        self.setToolTip(text.format(f"{scale.least:.6g}", f"{scale.greatest:.6g}"))
 
 
 class ResultsPanel:
@@ -48,30 +51,32 @@ class ResultsPanel:
         layout = QtGui.QFormLayout(self.form)
         self.slider = QtGui.QSlider(QtCore.Qt.Horizontal)
         self.slider.setRange(0, len(self.animation.times) - 1)
-        self.time, self.play_button = QtGui.QLabel(), QtGui.QPushButton("Play")
+        self.time, self.play_button = QtGui.QLabel(), QtGui.QPushButton(tr("Play"))
         self.play_button.setCheckable(True)
         self.exaggeration = QtGui.QDoubleSpinBox()
         self.exaggeration.setRange(0, 1e6)
         self.exaggeration.setValue(obj.Exaggeration)
         self.colour, self.legend = QtGui.QComboBox(), Legend()
-        self.colour.addItems(self.animation.fields)
-        self.colour.setCurrentText(obj.ColourBy)
-        self.tube = QtGui.QCheckBox("Tube")
+        for field in self.animation.fields:
+            self.colour.addItem(name_of_field(field), field)
+        self.colour.setCurrentIndex(max(0, self.colour.findData(obj.ColourBy)))
+        self.tube = QtGui.QCheckBox(tr("Tube"))
         self.tube.setChecked(obj.Show == "Tube")
         self.plots = QtGui.QComboBox()
         self.plots.addItems(sorted(name for name in self.animation.results.histories if name != "time"))
-        self.plot_button, self.keep_button = QtGui.QPushButton("Plot"), QtGui.QPushButton("Keep this frame")
+        self.plot_button, self.keep_button = QtGui.QPushButton(tr("Plot")), QtGui.QPushButton(tr("Keep this frame"))
         self.events = QtGui.QPlainTextEdit("\n".join([*obj.Warnings, *obj.Events]))
         self.events.setReadOnly(True)
         self._lay_out(layout)
         self._connect()
         self.slider.setValue(min(obj.Frame, self.slider.maximum()))
-        self.colour_changed(self.colour.currentText())
+        self.colour_changed()
 
     def _lay_out(self, layout):
-        for name, widget in (("Frame", self.slider), ("Time" if self.unit else "State", self.time), ("", self.play_button), ("Exaggeration", self.exaggeration),
-                             ("Colour", self.colour), ("", self.legend), ("", self.tube), ("History", self.plots),
-                             ("", self.plot_button), ("", self.keep_button), ("Events", self.events)):  # fmt: skip
+        for name, widget in ((tr("Frame"), self.slider), (tr("Time") if self.unit else tr("State"), self.time),
+                             ("", self.play_button), (tr("Exaggeration"), self.exaggeration),
+                             (tr("Colour"), self.colour), ("", self.legend), ("", self.tube), (tr("History"), self.plots),
+                             ("", self.plot_button), ("", self.keep_button), (tr("Events"), self.events)):  # fmt: skip
             layout.addRow(name, widget)
 
         over_time = (self.play_button, self.plots, self.plot_button)
@@ -90,7 +95,7 @@ class ResultsPanel:
         self.slider.valueChanged.connect(lambda _: self.show())
         self.exaggeration.valueChanged.connect(lambda _: self.show())
         self.tube.toggled.connect(lambda _: self.show())
-        self.colour.currentTextChanged.connect(self.colour_changed)
+        self.colour.currentIndexChanged.connect(lambda _: self.colour_changed())
         self.play_button.toggled.connect(self.play)
         self.plot_button.clicked.connect(self.plot)
         self.keep_button.clicked.connect(self.keep)
@@ -98,15 +103,16 @@ class ResultsPanel:
     def show(self):
         frame = self.slider.value()
         self.animation.show(frame, self.exaggeration.value(), self.tube.isChecked())
-        self.time.setText(f"{self._state(self.animation.times[frame])} ({frame + 1} of {len(self.animation.times)})")
+        self.time.setText(tr("{} ({} of {})").format(self._state(self.animation.times[frame]), frame + 1, len(self.animation.times)))
 
     def _state(self, time):
         """A time, or what else the states are numbered by."""
         if self.of_modes:
-            return "at rest" if time == 0 else self.obj.Events[int(time) - 1]
+            return tr("at rest") if time == 0 else self.obj.Events[int(time) - 1]
         return f"{time:.6g} {self.unit}".strip()
 
-    def colour_changed(self, field):
+    def colour_changed(self):
+        field = self.colour.currentData()
         if field in self.animation.fields:
             self.legend.show_scale(self.animation.colour_by(field), UNITS.get(field, ""))
         self.show()
@@ -152,7 +158,7 @@ class ResultsPanel:
         FreeCADGui.Control.closeDialog()
 
     def accept(self):
-        values = {"Frame": self.slider.value(), "Exaggeration": self.exaggeration.value(), "ColourBy": self.colour.currentText(),
+        values = {"Frame": self.slider.value(), "Exaggeration": self.exaggeration.value(), "ColourBy": self.colour.currentData(),
                   "Show": "Tube" if self.tube.isChecked() else "Line"}  # fmt: skip
         changed = {name: value for name, value in values.items() if getattr(self.obj, name) != value}
         if changed:
@@ -171,11 +177,17 @@ class ResultsPanel:
         """All that there is, is shown."""
 
 
+def name_of_field(field):
+    """"bending_moment" as "Bending moment"."""
+    return tr(field.replace("_", " ").capitalize())
+
+
 def keep_frame(result, beam, frame, exaggeration=1.0):
     """The beam of a result at a frame as a shape that stays."""
     shape = objects.make(objects.DeformedShape, result.Document)
     shape.Result, shape.BeamName = result, beam
     shape.Time = f"{result.Times[frame]!r} s"
     shape.Exaggeration = exaggeration
+    shape.Radius, shape.Bore = radii_of_beam(result, beam)
     shape.Label = f"{beam} at {result.Times[frame]:.6g} s"
     return shape

@@ -4,20 +4,20 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from .. import objects
+from ..language import tr
 from ..run.run_analysis import Finding, Run, check, edited_documents, start_run
 from ..run.command import Missing
-from .parts import PartPanel, words
+from .parts import PartPanel, label_of
 
 COLOURS = {"error": "#b00020", "warning": "#a06000"}
 
-FAULTS = "Mend what stands below; a click leads there."
 
 
 class RunPanel(PartPanel):
     def build(self):
         super().build()
-        self.check_button, self.run_button = QtGui.QPushButton("Check"), QtGui.QPushButton("Run")
-        self.stop_button, self.results_button = QtGui.QPushButton("Stop"), QtGui.QPushButton("Results")
+        self.check_button, self.run_button = QtGui.QPushButton(tr("Check")), QtGui.QPushButton(tr("Run"))
+        self.stop_button, self.results_button = QtGui.QPushButton(tr("Stop")), QtGui.QPushButton(tr("Results"))
         buttons = QtGui.QHBoxLayout()
         for button, does in ((self.check_button, self.check), (self.run_button, self.run), (self.stop_button, self.stop),
                              (self.results_button, self.open_results)):  # fmt: skip
@@ -52,7 +52,7 @@ class RunPanel(PartPanel):
         except Missing as problem:
             findings = [Finding("error", self.obj, "Status", str(problem))]
         self.show_findings(findings)
-        self.phase.setText(FAULTS if any(f.severity == "error" for f in findings) else "Nothing is wrong.")
+        self.phase.setText(_faults() if any(f.severity == "error" for f in findings) else tr("Nothing is wrong."))
 
     def run(self):
         if self.process:
@@ -64,7 +64,7 @@ class RunPanel(PartPanel):
             self._follow(run)
         self._show_state()
         if not run:
-            self.phase.setText(f"Not run. {FAULTS}")
+            self.phase.setText(f"{tr('Not run.')} {_faults()}")
 
     def _follow(self, run):
         self.document.commitTransaction()  # what was said until now; the run is a step of undo of its own
@@ -87,7 +87,7 @@ class RunPanel(PartPanel):
     def stop(self):
         if self.process:
             self.process.stop()
-            self.phase.setText("Stopping after this step; once more ends it at once.")
+            self.phase.setText(tr("Stopping after this step; once more ends it at once."))
 
     def _show_progress(self, line):
         if line.fraction is None:
@@ -112,7 +112,7 @@ class RunPanel(PartPanel):
         if not runs:
             self.progress.setRange(0, 1000)
             self.progress.setValue(1000 if self.obj.Status == "Done" else 0)
-            self.phase.setText(f"{self.obj.Status}. {self.obj.Message}".strip())
+            self.phase.setText(f"{tr(self.obj.Status)}. {self.obj.Message}".strip())
 
     def open_object(self, item):
         """One click selects the object that a message is about, and opens its panel at the property."""
@@ -131,17 +131,21 @@ class RunPanel(PartPanel):
         QtCore.QTimer.singleShot(0, lambda: FreeCADGui.getDocument(result.Document.Name).setEdit(result.Name))
 
 
+def _faults():
+    return tr("Correct the errors below; a click leads to their objects.")
+
+
 def _progress_text(line):
-    to_go = f", {line.seconds_to_go:.0f} s to go" if line.seconds_to_go is not None else ""
     at = f", t = {line.time:.4g} s" if line.time is not None else ""
-    return f"{line.phase.capitalize()}{at}{to_go}"
+    to_go = ", " + tr("{} s to go").format(f"{line.seconds_to_go:.0f}") if line.seconds_to_go is not None else ""
+    return f"{tr(line.phase.capitalize())}{at}{to_go}"
 
 
 def _show_in_status_bar(run, analysis):
     """Also while no panel of the analysis is open."""
     bar, label = FreeCADGui.getMainWindow().statusBar(), analysis.Label
     run.progressed.connect(lambda line: bar.showMessage(f"{label}: {_progress_text(line)}"))
-    run.ended.connect(lambda _: bar.showMessage(f"{label}: {analysis.Status}"))
+    run.ended.connect(lambda _: bar.showMessage(f"{label}: {tr(analysis.Status)}"))
 
 
 def _of(finding):
@@ -149,7 +153,7 @@ def _of(finding):
     if finding.obj is None:
         return ""
     known = any(row.name == finding.prop for row in finding.obj.Proxy.table())
-    return f"{finding.obj.Label}, {words(finding.prop)}: " if known else f"{finding.obj.Label}: "
+    return f"{finding.obj.Label}, {label_of(finding.prop)}: " if known else f"{finding.obj.Label}: "
 
 
 def _open(finding):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -9,6 +10,8 @@ import sys
 from typing import Any, NamedTuple, Optional
 
 import FreeCAD
+
+from ..case.places_of_case import PLACE
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Nurbeam"
 
@@ -96,9 +99,10 @@ def line_of(text: str) -> Optional[Line]:
     if keys:
         known = {name: keys[name] for name in Line._fields if name in keys}
         return Line(**{"message": keys.get("text", ""), **known})
-    for severity in ("error", "warning", "note"):
-        if text.startswith(f"{severity}: "):
-            return Line(severity, "", text[len(severity) + 2 :])
+    finding = re.match(r"(error|warning|note): (.*)$", text)
+    if finding:
+        place = re.match(rf"((?:[^:]+: )?{PLACE}): (.*)$", finding[2])
+        return Line(finding[1], *((place[1], place[2]) if place else ("", finding[2])))
     return Line(message=text)
 
 

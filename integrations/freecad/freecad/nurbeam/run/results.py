@@ -94,6 +94,14 @@ def name_of(obj, result):
     return written_case(analysis).names.get(obj, obj.Label) if analysis else obj.Label
 
 
+def radii_of_beam(result, name):
+    """Outer and inner radius [mm] of a round beam of the case that was run; 0 where its section is another."""
+    beams = json.loads(result.CaseText or "{}").get("beams", [])
+    section = next((beam.get("section", {}) for beam in beams if beam.get("name") == name), {})
+    numbers = section.get("radius", section.get("rope", {}).get("diameter", 0) / 2), section.get("bore", 0)
+    return [1000 * number for number in numbers]
+
+
 def nurbs_at(result, beam, time, exaggeration=1.0):
     """The curve of a beam at the stored time nearest to `time`, in metres."""
     results = read(result)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import Part
 
-from ..case.values import metres, rounded, si, times_unit, vector
+from ..case.values import merged, metres, rounded, si, times_unit, vector
 from ..geometry.edges import edge_of_nurbs
 from ..geometry.places import NoPlace, end_of_link
 from .command import TooLong, run_program
@@ -34,6 +34,17 @@ class FoundRoute(NamedTuple):
 def found_route(obj):
     """The cable of a CableOfLength, within the time of a recompute, or of a run where it asks for one."""
     limit = RUN_LIMIT if obj.RunNow else RECOMPUTE_LIMIT
+    asked = (limit, obj.Solid, obj.Diameter.Value, json.dumps(cable_file(obj)))
+    if obj.Proxy.failed and obj.Proxy.failed[0] == asked and not obj.RunNow:
+        raise NoRoute(obj.Proxy.failed[1])  # an object that is invalid is asked at each recompute of the document
+    try:
+        return _found_within(obj, limit)
+    except NoRoute as problem:
+        obj.Proxy.failed = (asked, str(problem))
+        raise
+
+
+def _found_within(obj, limit):
     with tempfile.TemporaryDirectory() as folder:
         cables, out = os.path.join(folder, "cables.json"), os.path.join(folder, "cable.brep" if obj.Solid else "cable.json")
         with open(cables, "w", encoding="utf-8") as stream:
@@ -66,6 +77,10 @@ def cable_file(obj):
     gravity = times_unit(9.81, obj.GravityDirection) or [0, 0, 0]
     cable = {"name": obj.Label.replace('"', "_").replace(",", "_"), "from": _end(obj, "From"), "to": _end(obj, "To"),
              **_goal(obj), "section": section, "material": material}  # fmt: skip
+    try:
+        cable = merged(cable, obj.ExtraKeys)
+    except ValueError as problem:
+        raise NoRoute(f"ExtraKeys: {problem}") from None
     return {"nurbeam_route": 1, "gravity": gravity, "cables": [cable]}
 
 
@@ -90,7 +105,9 @@ def _goal(obj):
 
 def _positive(obj, prop, value):
     if not value > 0:
-        raise NoRoute(f"{prop}: is {getattr(obj, prop)}; must be greater than 0")
+        unit = next(row.unit for row in obj.Proxy.table() if row.name == prop)
+        shown = f"{value:.10g} {unit}" if unit else getattr(obj, prop)
+        raise NoRoute(f"{prop}: is {shown}; must be greater than 0")
     return value
 
 

@@ -82,7 +82,21 @@ class Cables(DocumentTest):
         self.cable.CableLength = "950 mm"
         with mock.patch.object(route, "RECOMPUTE_LIMIT", 0.02):
             self.document.recompute()
-        self.assertIn("takes longer than 0.02 s: press Run", self.cable.getStatusString())
+            self.assertIn("takes longer than 0.02 s: press Run", self.cable.getStatusString())
+            with mock.patch.object(route, "run_program", side_effect=AssertionError("the search is not begun again")):
+                self.document.recompute()
+            self.assertIn("takes longer than 0.02 s: press Run", self.cable.getStatusString())
+            self.cable.RunNow = True  # as its panel does
+            self.cable.touch()
+            self.document.recompute()
+        self.assertEqual(self.cable.State, ["Up-to-date"], self.cable.getStatusString())
+
+    def test_extra_keys_reach_the_file_of_cables(self):
+        self.cable.CableLength, self.cable.ExtraKeys = "950 mm", '{"length": 1.2}'
+        self.assertEqual(route.cable_file(self.cable)["cables"][0]["length"], 1.2)
+        self.cable.ExtraKeys = "{"
+        with self.assertRaisesRegex(route.NoRoute, "ExtraKeys"):
+            route.cable_file(self.cable)
 
     def test_a_flipped_end_leaves_the_other_way(self):
         self.cable.FromFlip = True

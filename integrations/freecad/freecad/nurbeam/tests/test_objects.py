@@ -50,6 +50,21 @@ class Objects(DocumentTest):
         self.assertNotIn("OldPull", support.PropertiesList)
         self.assertEqual(support.SchemaVersion, SCHEMA_VERSION)
 
+    def test_a_beam_of_the_first_version_keeps_its_axis(self):
+        """Its axis was of one object."""
+        _, beam, _, _ = cantilever(self.document)
+        bar = beam.Axis[0][0]
+        beam.removeProperty("Axis")
+        beam.addProperty("App::PropertyXLinkSub", "Axis", "Axis", "")
+        beam.Axis, beam.SchemaVersion = (bar, ["Edge1"]), 1
+        name = beam.Name
+        beam = self.reopened().getObject(name)
+        self.assertEqual(beam.getTypeIdOfProperty("Axis"), "App::PropertyXLinkSubList")
+        self.assertEqual(beam.SchemaVersion, SCHEMA_VERSION)
+        beam.touch()
+        self.document.recompute()
+        self.assertEqual((beam.State, beam.Length.Value), (["Up-to-date"], 1000))
+
     def test_an_object_of_a_newer_version_is_invalid_and_unchanged(self):
         support = objects.make(objects.Support, self.document)
         support.SchemaVersion = SCHEMA_VERSION + 1
@@ -76,13 +91,13 @@ class Objects(DocumentTest):
 
         _, beam, _, _ = cantilever(self.document)
         self.assertAlmostEqual(beam.Length.Value, 1000, 9)
-        beam.Axis[0].Shape = Part.makeLine(Vector(0, 0, 0), Vector(0, 700, 0))
+        beam.Axis[0][0].Shape = Part.makeLine(Vector(0, 0, 0), Vector(0, 700, 0))
         self.document.recompute()
         self.assertAlmostEqual(beam.Length.Value, 700, 9)
 
     def test_a_broken_link_is_told_at_the_object(self):
         _, beam, _, _ = cantilever(self.document)
-        self.document.removeObject(beam.Axis[0].Name)
+        self.document.removeObject(beam.Axis[0][0].Name)
         self.document.recompute()
         self.assertIn("Invalid", beam.State)
         self.assertIn("no axis is chosen", beam.getStatusString())

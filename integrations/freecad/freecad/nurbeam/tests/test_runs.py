@@ -43,6 +43,27 @@ class Faults(DocumentTest):
         self.beam.ExtraKeys = '{"no_such_key": 1}'
         self.expect(self.beam, "ExtraKeys")
 
+    def test_a_joint_a_connector_a_stop_and_the_analysis(self):
+        import Part
+        from FreeCAD import Vector
+
+        other = objects.make(objects.Beam, self.document, "other", self.analysis)
+        other.Axis, other.Material = (self.add(Part.makeLine(Vector(0, 9, 0), Vector(900, 9, 0))), ["Edge1"]), self.beam.Material
+        joint = objects.make(objects.Joint, self.document, "joint", self.analysis)
+        joint.Beams = [self.beam, other]  # which meet nowhere
+        connector = objects.make(objects.Connector, self.document, "connector", self.analysis)
+        connector.FromObject, connector.ToObject, connector.ToPlaceKind, connector.ToPlaceLength = self.beam, other, "Length", "2 m"
+        self.expect(joint, "Beams")
+        self.document.removeObject(joint.Name)
+        self.expect(connector, "ToPlaceLength")
+        self.document.removeObject(connector.Name)
+        stop = objects.make(objects.Stop, self.document, "stop", self.analysis)
+        stop.Beam, stop.Restitution = self.beam, 3
+        self.expect(stop, "Restitution")
+        self.document.removeObject(stop.Name)
+        self.analysis.AnalysisType, self.analysis.EndTime = "Motion", "0 s"
+        self.expect(self.analysis, "EndTime")
+
     def test_a_place_outside_of_a_support_a_body_and_a_probe(self):
         body = objects.make(objects.SlidingBody, self.document, "body", self.analysis)
         probe = objects.make(objects.Probe, self.document, "probe", self.analysis)
@@ -192,6 +213,18 @@ class Runs(DocumentTest):
         self.assertIn("killed", self.analysis.Message)
         self.assertEqual([obj.Name for obj in self.document.Objects], before)
         self.assertFalse(os.path.exists(run.folder))
+
+    def test_two_analyses_run_side_by_side(self):
+        self.make_long()
+        other, *_ = cantilever(self.document)
+        first = self.begin()
+        second, findings = run_analysis.start_run(other)
+        self.assertIsNotNone(second, findings)
+        self.assertEqual(len(run_analysis.Run.running), 2)
+        self.assertTrue(second.wait(60))
+        self.assertEqual((second.code, first.code, self.analysis.Status), (0, None, "Running"))
+        first.kill()
+        self.assertTrue(first.wait(20))
 
     def test_a_run_is_one_step_of_undo(self):
         self.document.UndoMode = 1

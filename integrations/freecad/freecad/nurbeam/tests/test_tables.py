@@ -3,6 +3,7 @@
 from ..case.places_of_case import Place, object_at, place_in_case
 from ..case.tables import BadTable, rows_of_table
 from ..case.values import agree, merged, name_for_case
+from ..run.command import line_of
 from .support import DocumentTest
 
 
@@ -51,3 +52,14 @@ class Values(DocumentTest):
         self.assertEqual(object_at(places, "case.json: beams[0].section.radius").prop, "Radius")
         self.assertEqual(object_at(places, "case.json: beams[0].element.count").prop, "Axis")
         self.assertIsNone(object_at(places, "case.json: loads[0]"))
+
+    def test_lines_of_the_command_are_read_with_their_place(self):
+        for text, severity, where, message in (
+            ("error: a b/case.json: beams[0].section.radius: is 0 m; must be at least 1e-09 m", "error", "a b/case.json: beams[0].section.radius",
+             "is 0 m; must be at least 1e-09 m"),
+            ("warning: supports[1]: stands at 2: one too many", "warning", "supports[1]", "stands at 2: one too many"),
+            ("note: all is well: as it seems", "note", "", "all is well: as it seems"),
+            ('{"severity": "error", "where": "beams[0]", "message": "x: y"}', "error", "beams[0]", "x: y"),
+        ):  # fmt: skip
+            line = line_of(text)
+            self.assertEqual((line.severity, line.where, line.message), (severity, where, message))

@@ -45,8 +45,8 @@ class Wires(DocumentTest):
 
     def test_a_click_on_a_face_means_the_solid_that_it_bounds(self):
         pipe = self.add(bent_pipe(), "Pipe")
-        self.assertEqual(places.whole_bodies((pipe, ["Face2", "Face5"])), (pipe, [""]))
-        self.assertEqual(places.whole_bodies((pipe, ["Edge2"])), (pipe, ["Edge2"]))
+        self.assertEqual(places.whole_bodies((pipe, ["Face2", "Face5"])), [(pipe, [""])])
+        self.assertEqual(places.whole_bodies((pipe, ["Edge2"])), [(pipe, ["Edge2"])])
         rods = [Part.makeCylinder(2, 100), Part.makeCylinder(3, 200, Vector(50, 0, 0))]
         part = self.document.addObject("App::Part", "Part")
         both = self.add(Part.makeCompound(rods), "Both")
@@ -69,6 +69,26 @@ class Wires(DocumentTest):
     def test_the_outline_of_a_plane_face_is_a_line_and_no_pipe(self):
         disc = self.add(Part.Face(Part.Wire(Part.makeCircle(50))), "Disc")
         self.assertAlmostEqual(self.length_of((disc, [""])), 100 * math.pi, 9)
+
+    def test_edges_of_several_objects_that_meet_are_one_axis(self):
+        drawn = [self.add(edge, f"Piece {i}") for i, edge in enumerate(arc_wire())]
+        part = self.document.addObject("App::Part", "Part")
+        part.addObject(drawn[2])
+        links = [(part, [f"{drawn[2].Name}.Edge1"]), (drawn[0], ["Edge1"]), (drawn[1], [""])]
+        beam = objects.make(objects.Beam, self.document)
+        beam.Axis = places.whole_bodies(links)
+        self.document.recompute()
+        self.assertAlmostEqual(beam.Length.Value, 250 + 25 * math.pi, 9)
+        name = beam.Name
+        beam = self.reopened().getObject(name)
+        self.assertEqual(len(beam.Axis), 3)
+        beam.Axis[1][0].Shape = Part.makeLine(Vector(-50, 0, 0), Vector(100, 0, 0))
+        self.document.recompute()
+        self.assertAlmostEqual(beam.Length.Value, 300 + 25 * math.pi, 9)
+        part = self.document.getObject("Part")
+        part.Placement.Base = Vector(0, 7, 0)
+        self.document.recompute()
+        self.assertIn("2 separate lines, the nearest 7 mm apart", beam.getStatusString())
 
     def test_reversed_swaps_the_ends(self):
         beam = objects.make(objects.Beam, self.document)

@@ -11,7 +11,7 @@ from .. import objects
 from ..case.export_case import export_case
 from ..run import run_analysis
 from ..run.command import program
-from ..run.results import nurbs_at
+from ..run.results import nurbs_at, radii_of_beam
 from ..geometry.edges import spline_of_nurbs
 from .support import DocumentTest, application, zip_line
 
@@ -81,7 +81,8 @@ class ZipLine(DocumentTest):
 
     def solid_has_the_volume_of_its_axis(self, shape):
         axis = shape.Shape.Length
-        shape.Form, shape.Radius = "Solid", "6 mm"
+        shape.Form = "Solid"
+        shape.Radius, shape.Bore = radii_of_beam(shape.Result, "cable")
         self.document.recompute()
         self.assertEqual(shape.State, ["Up-to-date"], shape.getStatusString())
         self.assertTrue(shape.Shape.isValid())

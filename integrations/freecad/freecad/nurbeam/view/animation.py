@@ -3,9 +3,9 @@
 import numpy as np
 from pivy import coin
 
-from ..case.axes import axis_of
 from ..case.write_case import written_case
-from ..run.results import read
+from ..geometry import places
+from ..run.results import radii_of_beam, read
 
 PLACES = 201  # of a beam that are drawn
 CORNERS = 12  # of the section of a tube
@@ -98,7 +98,7 @@ class Animation:
         self.node = coin.SoSeparator()
         self._points = {name: self._all_points(name) for name in self.names}
         size = max(np.ptp(points.reshape(-1, 3), axis=0).max() for points in self._points.values())
-        self._beams = [BeamNode(name, self._radius(name) or TUBE * size) for name in self.names]
+        self._beams = [BeamNode(name, radii_of_beam(result, name)[0] or TUBE * size) for name in self.names]
         for beam in self._beams:
             self.node.addChild(beam.node)
         self._values, self.scale, self.frame = {}, None, 0
@@ -111,7 +111,7 @@ class Animation:
 
     def _fade(self):
         """Makes the pictures of the shapes that beams were drawn on faint: (root, node) of each."""
-        roots = {obj.Axis[0] for obj in self.objects.values() if getattr(obj, "Axis", None)}
+        roots = {root for obj in self.objects.values() for root, _ in places.parts_of_link(getattr(obj, "Axis", None))}
         faded = []
         for root in roots:
             faint = coin.SoMaterial()
@@ -122,15 +122,6 @@ class Animation:
             root.ViewObject.RootNode.insertChild(faint, 0)
             faded.append((root.ViewObject.RootNode, faint))
         return faded
-
-    def _radius(self, name):
-        """[mm]"""
-        beam = self.objects.get(name)
-        if beam is None or beam.SectionKind not in ("Round", "Pipe", "Rope", "Of the pipe"):
-            return 0
-        if beam.SectionKind == "Of the pipe":
-            return 1000 * axis_of(beam).radius
-        return beam.RopeDiameter.Value / 2 if beam.SectionKind == "Rope" else beam.Radius.Value
 
     def _all_points(self, name):
         """(frames + 1, PLACES, 3) [mm] at equal material coordinates; the first is the drawing."""

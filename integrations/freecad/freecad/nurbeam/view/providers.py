@@ -87,10 +87,12 @@ class SymbolProvider(Provider):
     """Of objects that stand at a place of a beam."""
 
     NODE = "node"
+    LAST = "Position"
+    """The property without which the symbol has no place; an object that is being made or loaded may lack it."""
 
     def attach(self, view):
         super().attach(view)
-        self.symbol = symbols.Symbol(view.Object.NurbeamType)
+        self.symbol = self.new_symbol(view.Object)
         self.node = self.symbol.node
         view.addDisplayMode(self.node, "Symbol")
         self.updateData(view.Object, "Position")
@@ -104,9 +106,21 @@ class SymbolProvider(Provider):
     def setDisplayMode(self, mode):
         return mode
 
+    def new_symbol(self, obj):
+        return symbols.Symbol(obj.NurbeamType)
+
     def updateData(self, obj, prop):
-        if hasattr(self, "symbol") and "Position" in obj.PropertiesList:
+        if hasattr(self, "symbol") and self.LAST in obj.PropertiesList:
             self.symbol.update(obj)
+
+
+class SpanProvider(SymbolProvider):
+    """Of connectors, which are shown as a line."""
+
+    LAST = "ToSlope"
+
+    def new_symbol(self, obj):
+        return symbols.Span()
 
 
 class ResultProvider(Provider):
@@ -144,7 +158,7 @@ class ResultProvider(Provider):
 
 
 SHOWN = {objects.Analysis.TYPE: AnalysisProvider, objects.Result.TYPE: ResultProvider,
-         **dict.fromkeys((objects.Beam.TYPE, objects.Joint.TYPE, objects.Connector.TYPE), PlainProvider)}  # fmt: skip
+         objects.Connector.TYPE: SpanProvider, objects.Beam.TYPE: PlainProvider}  # fmt: skip
 
 
 def provider_of(obj):

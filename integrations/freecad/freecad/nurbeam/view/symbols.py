@@ -48,7 +48,7 @@ def _moved(shape, by):
 SYMBOLS = {
     objects.Support.TYPE: (_cone, (0.1, 0.45, 0.75)), objects.Load.TYPE: (_arrow, (0.8, 0.15, 0.1)),
     objects.SlidingBody.TYPE: (_box, (0.85, 0.55, 0.1)), objects.Stop.TYPE: (_box, (0.35, 0.35, 0.35)),
-    objects.Probe.TYPE: (_ball, (0.2, 0.6, 0.25)),
+    objects.Probe.TYPE: (_ball, (0.2, 0.6, 0.25)), objects.Joint.TYPE: (_ball, (0.1, 0.45, 0.75)),
 }  # fmt: skip
 
 
@@ -70,7 +70,7 @@ class Symbol:
 
     def update(self, obj):
         """Puts it where the object stands now."""
-        if getattr(obj, "Beam", None) is None:
+        if getattr(obj, "Beam", None) is None and len(getattr(obj, "Beams", ())) < 2:
             self._switch.whichChild = coin.SO_SWITCH_NONE
             return
         try:
@@ -81,6 +81,25 @@ class Symbol:
         turn = FreeCAD.Rotation(FreeCAD.Vector(0, 1, 0), direction).Q
         self._place.rotation = turn
         self._switch.whichChild = coin.SO_SWITCH_ALL
+
+
+class Span:
+    """The node of a connector: a dashed line between its ends; empty while they are not known."""
+
+    def __init__(self):
+        self.node, self._switch = coin.SoSeparator(), coin.SoSwitch()
+        colour, style, self._points, line = coin.SoBaseColor(), coin.SoDrawStyle(), coin.SoCoordinate3(), coin.SoLineSet()
+        colour.rgb = (0.85, 0.3, 0.1)
+        style.lineWidth, style.linePattern = 2, 0x0FFF
+        for child in (colour, style, self._points, line):
+            self._switch.addChild(child)
+        self.node.addChild(self._switch)
+        self._switch.whichChild = coin.SO_SWITCH_NONE
+
+    def update(self, obj):
+        ends = [tuple(obj.FromPosition), tuple(obj.ToPosition)]
+        self._points.point.setValues(0, 2, ends)
+        self._switch.whichChild = coin.SO_SWITCH_NONE if ends[0] == ends[1] else coin.SO_SWITCH_ALL
 
 
 def _of_one_size(shape):

@@ -1,0 +1,1 @@
+"""Files of translations, and what belongs into them."""
