@@ -46,6 +46,11 @@ Shape axis_shape() {
         "ends of curves up to this far apart meet; the file's own resolution when omitted", false, "file"},
        {"nurbs", nurbs, "an inline NURBS curve"},
        {"polyline", array(point(), 2), "straight pieces through these points"},
+       {"bend_radius",
+        either(quantity(Dimension::length, positive()), array(quantity(Dimension::length, positive()), 1)),
+        "of arcs in the place of the corners, as a bent tube has: one for all, or one for each corner in turn; "
+        "where the last point is the first there is one too; corners stay when omitted",
+        false, "polyline"},
        {"through", array(point(), 2),
         "the smooth curve through these points; closed where the last one is the first"},
        {"degree", integer(from(1)), "of that curve; 3, or less for fewer points, when omitted", false,
@@ -144,12 +149,64 @@ std::optional<NurbsCurve> read_nurbs(const Json& nurbs, const std::string& path,
   }
 }
 
-CaseAxis::Polyline read_polyline(const Json& axis, const std::string& path, Findings& findings) {
-  const CaseAxis::Polyline polyline = points(axis, "polyline");
+bool is_sound(const CaseAxis::Polyline& polyline, const std::string& path, Findings& findings) {
+  bool sound = true;
   for (std::size_t i = 1; i < polyline.size(); ++i)
-    if (polyline[i] == polyline[i - 1])
+    if (polyline[i] == polyline[i - 1]) {
       findings.error(child(child(path, "polyline"), i), "is the same point as the one before; remove one");
-  return polyline;
+      sound = false;
+    }
+  return sound;
+}
+
+// Of which the last digit shown is no more than the number.
+std::string rounded_down(double number) {
+  constexpr int digits = 5;
+  const double last = std::pow(10, std::floor(std::log10(number)) - (digits - 1));
+  return text_of(std::floor(number / last) * last, digits);
+}
+
+std::string text_of_tight(const BentLines& lines, const TightBend& bend) {
+  const std::size_t i = lines.point_of(bend.corner);
+  const std::string corner = "polyline[" + std::to_string(i) + "], " + text_of(lines.points[i]);
+  if (bend.folds)
+    return "rounds no corner where the line goes back on itself, as at " + corner + "; remove that point";
+  const std::string is = "is " + text_of(bend.radius, all_digits) + " m; at the corner " + corner + ", ";
+  if (!(bend.largest > 0)) return is + "the arcs beside it leave no room for one: make those smaller";
+  return is + "the lines are long enough for at most " + rounded_down(bend.largest) + " m" +
+         (lines.radii.size() > 1 ? ", beside the arcs next to it" : "");
+}
+
+// Lines with arcs in the place of their corners.
+std::optional<BentLines> read_bent_lines(const Json& axis, const std::string& axis_path, Findings& findings) {
+  BentLines lines{points(axis, "polyline"), {}};
+  if (lines.points.size() < 2 || lines.points.size() != part(axis, "polyline").size()) return {};
+  const std::string path = child(axis_path, "bend_radius");
+  const bool alike = axis["bend_radius"].is_number();
+  lines.radii = alike ? std::vector{number(axis, "bend_radius")} : numbers(axis, "bend_radius");
+  if (!alike && lines.radii.size() != axis["bend_radius"].size()) return {};
+  const std::size_t corners = lines.corner_count();
+  if (corners == 0) {
+    findings.error(path, "is of corners, but one line has none; give \"polyline\" a third point");
+    return {};
+  }
+  if (!alike && lines.radii.size() != corners) {
+    findings.error(path, "has " + std::to_string(lines.radii.size()) + " radii for " +
+                             std::to_string(corners) + " corners; give one for each, or one number for all");
+    return {};
+  }
+  if (const auto tight = tight_bend(lines)) {
+    findings.error(alike ? path : child(path, tight->corner), text_of_tight(lines, *tight));
+    return {};
+  }
+  return lines;
+}
+
+CaseAxis read_polyline(const Json& axis, const std::string& path, Findings& findings) {
+  const CaseAxis::Polyline polyline = points(axis, "polyline");
+  if (!is_sound(polyline, path, findings) || !has(axis, "bend_radius")) return {polyline};
+  const auto lines = read_bent_lines(axis, path, findings);
+  return lines ? CaseAxis{*lines} : CaseAxis{};
 }
 
 std::optional<NurbsCurve> read_through(const Json& axis, const std::string& path, Findings& findings) {
@@ -225,7 +282,7 @@ CaseAxis read_beam_axis(const Json& axis, const std::string& path, const std::fi
     const auto curve = read_through(axis, path, findings);
     return curve ? CaseAxis{*curve} : CaseAxis{};
   }
-  if (has(axis, "polyline")) return {read_polyline(axis, path, findings)};
+  if (has(axis, "polyline")) return read_polyline(axis, path, findings);
   if (has(axis, "arc")) return {read_arc(axis, path, findings)};
   return {};
 }

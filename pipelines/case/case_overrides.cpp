@@ -62,6 +62,36 @@ std::string known_items(const Json& array, const std::string& part) {
   return names.empty() || as_index(part) ? std::string() : known_names(part, names);
 }
 
+/// The alternative of an `either` that has items; the shape itself otherwise.
+const Shape& list_alternative(const Shape& shape) {
+  if (shape.kind == Kind::either)
+    for (const Shape& item : shape.items)
+      if (item.kind == Kind::array || item.kind == Kind::table) return item;
+  return shape;
+}
+
+bool is_list(const Shape& shape) {
+  const Shape& list = list_alternative(shape);
+  return list.kind == Kind::array || list.kind == Kind::table;
+}
+
+/// The number of an item that stands behind the last one.
+constexpr const char* behind_last = "+";
+
+/// Appends a value to a list, which is made where there is none.
+AppliedOverride append_at(Json& list, const Shape& shape, const std::string& path, bool is_last,
+                          const Json& value) {
+  if (!is_last)
+    return {path + "[+] is a new item, which has no parts yet; give it whole, as " + path + "[+]={...}", {}};
+  if (!is_list(shape))
+    return {path + " is no list, and nothing can be appended to it; set it as a whole", {}};
+  if (value.is_null()) return {"null removes what is there, and [+] is a new item; give its number", {}};
+  if (list.is_null()) list = Json::array();
+  if (!list.is_array()) return {path + " is " + list.dump() + ", which is no list; set it as a whole", {}};
+  list.push_back(value);
+  return {{}, child(path, list.size() - 1)};
+}
+
 /// Whether the brackets of a path hold indices behind names, as in beams[0].section.radius.
 bool has_sound_brackets(const std::string& path) {
   bool inside = false;
@@ -86,10 +116,57 @@ std::optional<double> loose_number(std::string_view text) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
+/// Whether a text that cannot be read was to be an object or a list.
+bool is_meant_as_json(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\n");
+  return first != std::string::npos && (text[first] == '{' || text[first] == '[');
+}
+constexpr const char* no_json_message =
+    "the value cannot be read as JSON: names and texts stand in double quotes, and for the shell all of it in "
+    "single ones, as in --set 'loads[+]={\"beam\": \"tube\", \"at\": \"end\", \"force\": [0, 0, -500]}'";
+
 /// Of which a part is changed though all of it is omitted.
 void write_out_gravity(Json& root) {
   if (!root.is_object() || root.contains("gravity")) return;
   for (const double g : CaseFile{}.gravity) root["gravity"].push_back(g);
+}
+
+/// The item of a list on the way along a path.
+struct FoundItem {
+  std::string problem;
+  std::size_t index = 0;
+};
+FoundItem find_item(const Json& list, const Shape& shape, const std::string& path, const std::string& part) {
+  if (const auto index = item_of(list, part)) return {{}, *index};
+  return {path + " has " + std::to_string(list.size()) + " item(s), counted from 0; there is no [" + part +
+          "]" + known_items(list, part) + (is_list(shape) ? "; " + path + "[+]=VALUE appends one" : "")};
+}
+
+/// What is there has no parts by which it could be changed.
+std::string no_parts(const Shape& shape, const std::string& path) {
+  if (is_list(shape)) return path + " has no items here; " + path + "[+]=VALUE appends the first";
+  return path + " has no parts here; set it as a whole";
+}
+
+/// What stands under a key of an object, or under a name of a map; nullptr and the problem where there is
+/// none.
+const Shape* shape_under(const Shape& holder, const std::string& part, const std::string& path,
+                         std::string& problem) {
+  if (holder.kind == Kind::map) return &holder.items[0];
+  if (const Key* key = find_key(holder, part)) return &key->shape;
+  problem = "there is no " + in_quotes(part) + " in " + path + known_names(part, key_names(holder));
+  return nullptr;
+}
+
+/// Makes the value an object, to which a key can be added; the problem where it is something else.
+std::string open_object(Json& value, const Shape& holder, const std::string& path) {
+  if (value.is_string() && find_key(holder, "name")) {
+    value = {{"name", value}};  // a material of a standard, of which a part is another
+  } else if (!value.is_object()) {
+    if (!value.is_null()) return path + " is " + value.dump() + ", which has no parts; set it as a whole";
+    value = Json::object();
+  }
+  return {};
 }
 
 AppliedOverride put_at(Json& root, const std::string& path, const Json& new_value) {
@@ -101,41 +178,34 @@ AppliedOverride put_at(Json& root, const std::string& path, const Json& new_valu
   const std::vector<std::string> parts = path_parts(path);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string& part = parts[i];
+    const bool is_last = i + 1 == parts.size();
     const std::string here = walked.empty() ? "the case file" : walked;
     const Shape& holder = object_alternative(*shape);
-    if (holder.kind != Kind::object && !value->is_array())
-      return {here + " has no parts here; set it as a whole", {}};
+    if (part == behind_last) return append_at(*value, *shape, walked, is_last, new_value);
     if (value->is_array()) {
-      const auto index = item_of(*value, part);
-      if (!index)
-        return {here + " has " + std::to_string(value->size()) + " item(s), counted from 0; there is no [" +
-                    part + "]" + known_items(*value, part),
-                {}};
-      walked = child(walked, *index);
-      if (removes && i + 1 == parts.size()) {
-        value->erase(*index);
+      const FoundItem item = find_item(*value, *shape, here, part);
+      if (!item.problem.empty()) return {item.problem, {}};
+      walked = child(walked, item.index);
+      if (removes && is_last) {
+        value->erase(item.index);
         return {{}, walked};
       }
-      shape = holder.kind == Kind::array ? &holder.items[0] : shape;
-      value = &(*value)[*index];
+      const Shape& list = list_alternative(*shape);
+      shape = list.kind == Kind::array ? &list.items[0] : shape;
+      value = &(*value)[item.index];
       continue;
     }
-    const Key* key = find_key(holder, part);
-    if (!key)
-      return {"there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(holder)), {}};
+    if (holder.kind != Kind::object && holder.kind != Kind::map) return {no_parts(*shape, here), {}};
+    std::string problem;
+    shape = shape_under(holder, part, here, problem);
+    if (!shape) return {problem, {}};
     walked = child(walked, part);
-    shape = &key->shape;
-    if (removes && i + 1 == parts.size()) {
+    if (removes && is_last) {
       if (value->is_object()) value->erase(part);
       return {{}, walked};
     }
-    if (value->is_string() && find_key(holder, "name")) {
-      *value = {{"name", *value}};  // a material of a standard, of which a part is another
-    } else if (!value->is_object()) {
-      if (!value->is_null())
-        return {here + " is " + value->dump() + ", which has no parts; set it as a whole", {}};
-      *value = Json::object();
-    }
+    problem = open_object(*value, holder, here);
+    if (!problem.empty()) return {problem, {}};
     value = removes && !value->contains(part) ? &(absent = Json()) : &(*value)[part];
   }
   *value = new_value;
@@ -171,6 +241,7 @@ AppliedOverride apply_override(Json& root, const std::string& text) {
   if (too_deep_at(value_text) != std::string::npos) return {too_deep_message(), {}};
   Json value = Json::parse(value_text, nullptr, false);
   if (value.is_discarded()) {
+    if (is_meant_as_json(value_text)) return {no_json_message, {}};
     if (const auto number = loose_number(value_text))
       return {
           in_quotes(value_text) + " is not a number as JSON writes it; write " + text_of(*number, all_digits),
@@ -188,6 +259,7 @@ DimensionAtPath dimension_at(const std::string& path) {
   const std::vector<std::string> parts = path_parts(path);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string &part = parts[i], here = walked.empty() ? "the case file" : walked;
+    if (part == behind_last) return {{}, here + "[+] is a new item; name a number that is there"};
     const Shape* holder = shape;
     if (shape->kind == Kind::either)
       for (const Shape& item : shape->items) {
@@ -203,12 +275,11 @@ DimensionAtPath dimension_at(const std::string& path) {
       return {holder->dimension, {}};
     } else if (holder->kind == Kind::table) {
       return in_table(*holder, here, {parts.begin() + static_cast<std::ptrdiff_t>(i), parts.end()});
-    } else if (holder->kind == Kind::object) {
-      const Key* key = find_key(*holder, part);
-      if (!key)
-        return {{}, "there is no " + in_quotes(part) + " in " + here + known_names(part, key_names(*holder))};
+    } else if (holder->kind == Kind::object || holder->kind == Kind::map) {
+      std::string problem;
+      shape = shape_under(*holder, part, here, problem);
+      if (!shape) return {{}, problem};
       walked = child(walked, part);
-      shape = &key->shape;
     } else {
       return {{}, here + " has no parts that one number could be"};
     }

@@ -201,7 +201,8 @@ int manual_command(const Arguments&, Streams streams) {
 constexpr std::size_t any_number = std::string::npos;
 
 CommandOption set_option() {
-  return {"--set", "path=value", "changes the case before it is checked; null removes a key or an item",
+  return {"--set", "path=value",
+          "changes the case before it is checked; null removes a key or an item, LIST[+]=value appends one",
           false, true};
 }
 

@@ -210,12 +210,15 @@ std::string named(const std::vector<Corner>& corners) {
          rough(most->angle) + " degrees, the first at " + text_of(first.point) + "; ";
 }
 
-// The smooth curve that was meant by points with a corner at each.
+// What was meant by points with a corner at each: a bent tube, or a smooth curve.
 std::string smooth_curve(const CaseBeam& beam, std::size_t corners) {
   const auto* polyline = std::get_if<CaseAxis::Polyline>(&beam.axis.source);
   constexpr std::size_t few = 2;
-  if (!polyline || corners <= few) return "";
-  return "give the points as \"through\" in place of \"polyline\", which lays a smooth curve through them "
+  if (!polyline) return "";
+  const std::string bends = "give the lines a \"bend_radius\", as a bent tube has, ";
+  if (corners <= few) return bends;
+  return bends +
+         "give the points as \"through\" in place of \"polyline\", which lays a smooth curve through them "
          "(in Python Curve.through), ";
 }
 
@@ -268,6 +271,7 @@ BeamAxis drawn_axis(const CaseBeam& beam, const Chain& chain, CadFiles& files, F
                         source.degree() > 3, findings)};
         if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
           return {beam.name, arc_cubics(source.center, source.start, source.end, source.normal)};
+        if constexpr (std::is_same_v<Source, BentLines>) return {beam.name, bent_line_cubics(source)};
         if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) {
           std::vector<RationalCubic> cubics;
           for (std::size_t i = 0; i + 1 < source.size(); ++i)

@@ -39,6 +39,7 @@
 #include "pipelines/model/resolved_case.h"
 #include "pipelines/model/sliding_joints.h"
 #include "pipelines/model/supports.h"
+#include "pipelines/model/ways_to_eyelets.h"
 #include "pipelines/model/why_torsion.h"
 
 namespace nurbeam {
@@ -526,6 +527,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
     built.collectors = add_collectors(resolved, beams, built.frame, built.model, findings);
   if (!findings.has_errors()) add_stops(resolved, beams, built.model, findings);
   if (!findings.has_errors()) start_bodies(resolved, built.model, findings);
+  if (!findings.has_errors() && !like) check_ways_to_eyelets(resolved, built.model, findings);
   if (findings.has_errors()) return {};
   mark_held_nodes(built.model);
   set_flows(resolved, built.model, findings);

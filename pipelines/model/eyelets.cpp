@@ -126,7 +126,7 @@ void add_eyelets(const ResolvedCase& resolved, const std::vector<DrawnBeam>& bea
                                     .curve = &beams[b].curve,
                                     .s = rider.s,
                                     .from_start = true},
-                                   analysis.end_time, findings);
+                                   analysis, findings);
     const Rings::Place ring = rings.place_of({eyelet.on, eyelet.position, eyelet.moves}, drawn);
     check_place(eyelet, (ring.position - drawn).norm(), analysis, model.beams[b].curve.length(), findings);
     check_apart(eyelet, rider, model, findings);

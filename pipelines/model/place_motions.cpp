@@ -88,15 +88,15 @@ TimeTable steady_motion(const CasePlaceMotion& motion, const MovedPlace& place, 
 }  // namespace
 
 std::optional<PlaceMotion> place_motion_of(const CasePlaceMotion& motion, const MovedPlace& place,
-                                           double end_time, Findings& findings) {
-  if (motion.speed) return PlaceMotion(steady_motion(motion, place, end_time));
+                                           const CaseAnalysis& analysis, Findings& findings) {
+  if (motion.speed) return PlaceMotion(steady_motion(motion, place, analysis.end_time));
   if (motion.table.empty()) return {};
   TimeTable rows = motion.table;
   if (place.from_start)
     for (auto& [time, s] : rows) s = place.s + place.sense * s;
   PlaceMotion moved(std::move(rows), motion.join,
                     place.curve->closed() ? RowCurve::unbounded : std::pair(place.low, place.high));
-  note_jumps(motion, place, *moved.rows(), findings);
+  if (analysis.type == CaseAnalysis::Type::dynamic) note_jumps(motion, place, *moved.rows(), findings);
   check_motion(motion, place, *moved.rows(), findings);
   return moved;
 }

@@ -4,6 +4,7 @@
 
 #include "fem/element/reference_curve.h"
 #include "fem/structure/place_motion.h"
+#include "pipelines/case/parts/analysis.h"
 #include "pipelines/case/parts/place_motion.h"
 #include "pipelines/diagnostics/findings.h"
 
@@ -22,8 +23,9 @@ struct MovedPlace {
 };
 
 /// The prescribed motion of a place in reference arc length; none where none is given. An error where it does
-/// not begin at the place, leaves the beam, or jumps; a note where its speed does.
+/// not begin at the place, leaves the beam, or jumps; a note where the speed of one in an analysis of motion
+/// does.
 std::optional<PlaceMotion> place_motion_of(const CasePlaceMotion& motion, const MovedPlace& place,
-                                           double end_time, Findings& findings);
+                                           const CaseAnalysis& analysis, Findings& findings);
 
 }  // namespace nurbeam

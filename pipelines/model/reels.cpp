@@ -180,7 +180,7 @@ void add_reels(const ResolvedCase& resolved, const std::vector<DrawnBeam>& beams
                                     .sense = -towards_end,
                                     .low = std::min(empty, full),
                                     .high = std::max(empty, full)},
-                                   analysis.end_time, findings);
+                                   analysis, findings);
     mouth.direction = sleeve_direction(reel.direction, reel.path, beams[b].curve, s, frame, findings);
     const Eigen::Vector3d drawn = beam.curve.position(s);
     rings.add(reel.name, drawn, rings.place_of({reel.on, {}, reel.moves}, drawn));

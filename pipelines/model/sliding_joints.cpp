@@ -218,10 +218,10 @@ void add_sliding_joints(const ResolvedCase& resolved, const std::vector<DrawnBea
       if (resolved.bodies[i].name == joint.body) added.body = static_cast<int>(i);
     added.motion =
         place_motion_of(joint.motion, {.path = joint.path, .beam = joint.beam, .curve = &curve, .s = added.s},
-                        analysis.end_time, findings);
+                        analysis, findings);
     if (!joint.motion.table.empty()) added.s = added.motion->at(0).s;
     warn_of_stiff_hinge(joint, added, model, findings);
-    warn_of_speed(joint, added, model, findings);
+    if (analysis.type == CaseAnalysis::Type::dynamic) warn_of_speed(joint, added, model, findings);
     if (joint.motion_law)
       motions.push_back({.path = joint.path,
                          .function = *joint.motion_law,

@@ -123,7 +123,7 @@ inline constexpr BeamExtreme beam_extremes[] = {
      &BeamRecord::shear_force_max, false},
     {"stress_max", "stress.max", "Pa", "fibre stress of the largest magnitude", &BeamRecord::stress_max,
      false},
-    {"displacement_max", "displacement.max", "m", "largest displacement of a node from the drawing",
+    {"displacement_max", "displacement.max", "m", "largest displacement of the axis from the drawing",
      &BeamRecord::displacement_max, false}};
 
 /// What is known besides where SnapshotNames::sections says that beams have torsion; columns stand behind all

@@ -381,7 +381,7 @@ void exchange(Archive& archive, Checkpoint& p) {
   exchange_rows(
       archive, "peaks", "what was largest, by the watch between frames", p.peaks,
       [](double& number, auto& slot) { slot(number); });
-  exchange_rows(archive, "extremes", "value, s and time of each extreme of the run", p.extremes,
+  exchange_rows(archive, "run_extremes", "value, s, time and layer of each extreme of the run", p.extremes,
                 [](double& number, auto& slot) { slot(number); });
   exchange_events(archive, p.report.events);
   exchange_rows(archive, "nodes_given_up", "joint, time, s, and energy that its node would have cost",

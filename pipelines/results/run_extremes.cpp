@@ -10,10 +10,14 @@ namespace nurbeam {
 void RunExtremes::keep(const RunExtreme& candidate, bool least) {
   if (next_ == list_.size()) {
     list_.push_back(candidate);
-    if (const std::size_t i = 3 * next_; i + 2 < before_.size()) {
+    const auto optional = [](double number) {
+      return std::isnan(number) ? std::nullopt : std::optional(number);
+    };
+    if (const std::size_t i = 4 * next_; i + 3 < before_.size()) {
       list_.back().value = before_[i];
-      list_.back().s = std::isnan(before_[i + 1]) ? std::nullopt : std::optional(before_[i + 1]);
+      list_.back().s = optional(before_[i + 1]);
       list_.back().time = before_[i + 2];
+      list_.back().layer = optional(before_[i + 3]);
     }
   }
   RunExtreme& kept = list_[next_++];
@@ -62,7 +66,8 @@ void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
 std::vector<double> RunExtremes::numbers() const {
   std::vector<double> numbers;
   for (const RunExtreme& each : list_)
-    numbers.insert(numbers.end(), {each.value, each.s.value_or(std::nan("")), each.time});
+    numbers.insert(numbers.end(),
+                   {each.value, each.s.value_or(std::nan("")), each.time, each.layer.value_or(std::nan(""))});
   return numbers;
 }
 

@@ -28,7 +28,7 @@ class RunExtremes {
   /// Looks at a moment of the run: a frame, or one between frames.
   void look_at(const Snapshot& frame, const SnapshotNames& names);
   const std::vector<RunExtreme>& list() const { return list_; }
-  /// Value, place and time of each, for a restart point.
+  /// Value, place, time and layer of each, for a restart point.
   std::vector<double> numbers() const;
 
  private:

@@ -7,6 +7,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/readable_quantity.h"
+#include "pipelines/run/moment_text.h"
 
 namespace nurbeam {
 
@@ -56,23 +57,32 @@ bool is_surpassed(const RunSummary& summary, const Shown& shown, const RunExtrem
                                  });
 }
 
-std::string text_of_extreme(const RunExtreme& extreme, const Shown& shown, bool moves) {
+std::string text_of_extreme(const RunExtreme& extreme, const Shown& shown, const CaseAnalysis& analysis) {
   constexpr int digits = 4;
   const std::string of =
       extreme.quantity.substr(0, extreme.quantity.size() - std::string(shown.ending).size());
   const double value = shown.sign == 0 ? extreme.value : std::abs(extreme.value);
   std::string text = std::string(shown.name) + " " + readable(value, extreme.unit) + " (" + of;
   if (extreme.s) text += ", s = " + text_of(*extreme.s, digits) + " m";
-  if (moves) text += ", t = " + text_of(extreme.time, digits) + " s";
-  return text + ")";
+  const std::string moment = moment_text(analysis, extreme.time, digits);
+  return text + (moment.empty() ? "" : ", " + moment) + ")";
 }
 
-void add_extremes(const RunSummary& summary, bool moves, std::vector<std::string>& lines) {
+// Whether it is the bending of a beam as a whole, or of a short layer that the line through the nodes has
+// not.
+std::string text_of_layer(const RunExtreme& extreme) {
+  return "          local bending, within " + readable(*extreme.layer, "m") + " of the kink or clamp there";
+}
+
+void add_extremes(const RunSummary& summary, const CaseAnalysis& analysis, std::vector<std::string>& lines) {
   bool first = true;
-  for (const Shown& shown : all_shown)
-    if (const auto extreme = largest(summary, shown); extreme && !is_surpassed(summary, shown, *extreme))
-      lines.push_back((std::exchange(first, false) ? "largest " : "        ") +
-                      text_of_extreme(*extreme, shown, moves));
+  for (const Shown& shown : all_shown) {
+    const auto extreme = largest(summary, shown);
+    if (!extreme || is_surpassed(summary, shown, *extreme)) continue;
+    lines.push_back((std::exchange(first, false) ? "largest " : "        ") +
+                    text_of_extreme(*extreme, shown, analysis));
+    if (extreme->layer) lines.push_back(text_of_layer(*extreme));
+  }
 }
 
 // What bodies did at the ends of their beams, of the first few.
@@ -154,14 +164,15 @@ std::string uncovered_line(const std::vector<FeatureEvidence>& evidence) {
 
 }  // namespace
 
-std::vector<std::string> closing_lines(const RunSummary& summary, const SimulationReport& run, bool moves,
-                                       const std::filesystem::path& out, bool report) {
+std::vector<std::string> closing_lines(const RunSummary& summary, const SimulationReport& run,
+                                       const CaseAnalysis& analysis, const std::filesystem::path& out,
+                                       bool report) {
   std::vector<std::string> lines;
   if (!summary.modes) {
-    add_extremes(summary, moves, lines);
+    add_extremes(summary, analysis, lines);
     add_endings(summary, lines);
     add_collectors(summary, lines);
-    lines.push_back(energy_line(summary, run, moves));
+    lines.push_back(energy_line(summary, run, analysis.type == CaseAnalysis::Type::dynamic));
   }
   lines.push_back(warnings_line(summary.diagnostics));
   if (std::string line = uncovered_line(summary.evidence); !line.empty()) lines.push_back(line);

@@ -5,6 +5,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/run/moment_text.h"
 
 namespace nurbeam {
 
@@ -34,12 +35,14 @@ std::vector<Diagnostic> law_notes(const CaseFile& case_file, const BeamModel& mo
                                    [&](const CaseBeam& each) { return each.name == beam.name; });
     if (std::abs(of.stretch) < small || from == case_file.beams.end() || from->material.law) continue;
     const double EA = beam.properties.free_axial_stiffness(), e = of.stretch, L = 1 + e;
+    const std::string moment = moment_text(case_file.analysis, of.time, 4);
     notes.push_back(
         {Severity::note, case_file.path.string(),
          "beam " + in_quotes(beam.name) + " is " + (e > 0 ? "stretched" : "shortened") + " by " +
-             text_of(100 * std::abs(e), 3) + " % at s = " + text_of(of.s, 4) + " m, t = " +
-             text_of(of.time, 4) + " s. Its axial force there is " + text_of(EA * L * (L * L - 1) / 2, 4) +
-             " N by Green's law, which is the default, and " + text_of(EA * e, 4) +
+             text_of(100 * std::abs(e), 3) + " % at s = " + text_of(of.s, 4) + " m" +
+             (moment.empty() ? "" : ", " + moment) + ". Its axial force there is " +
+             text_of(EA * L * (L * L - 1) / 2, 4) + " N by Green's law, which is the default, and " +
+             text_of(EA * e, 4) +
              " N by Hooke's; choose one, or rows of force over stretch, as \"law\" in its \"material\""});
   }
   return notes;

@@ -175,8 +175,8 @@ class Run {
   }
 
   void tell_outcome(const SimulationReport& simulated, bool with_report) {
-    const bool moves = case_.analysis.type == CaseAnalysis::Type::dynamic;
-    for (const std::string& line : closing_lines(summary_, simulated, moves, options_.out, with_report))
+    for (const std::string& line :
+         closing_lines(summary_, simulated, case_.analysis, options_.out, with_report))
       options_.quiet ? void(*log_ << line << std::endl) : tell(line);
   }
 

@@ -5,6 +5,7 @@
 
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/simulation_text.h"
+#include "pipelines/run/moment_text.h"
 
 namespace nurbeam {
 
@@ -61,24 +62,24 @@ std::optional<Diagnostic> fewer_modes_note(const CaseFile& c, const ModeTable& t
                : "; more elements have more")};
 }
 
-std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain) {
+std::optional<Diagnostic> compression_warning(const CaseFile& c, const LeastStrain& strain) {
   constexpr double nothing_left = -0.5;  // Green's strain of a length of zero
   if (strain.value > nothing_left) return {};
   return Diagnostic{
-      Severity::warning, file.string() + ": analysis",
-      "beam \"" + strain.beam + "\" is compressed to nothing at s = " + text_of(strain.s, 6) +
-          " m at t = " + text_of(strain.time, 6) +
-          " s: do not trust the result; take more elements there, and see whether the material is that soft"};
+      Severity::warning, c.path.string() + ": analysis",
+      "beam \"" + strain.beam + "\" is compressed to nothing at s = " + text_of(strain.s, 6) + " m" +
+          at_moment(c.analysis, strain.time, 6) +
+          ": do not trust the result; take more elements there, and see whether the material is that soft"};
 }
 
-std::optional<Diagnostic> fold_warning(const std::filesystem::path& file, const Fold& fold) {
+std::optional<Diagnostic> fold_warning(const CaseFile& c, const Fold& fold) {
   constexpr double half_gone = 0.2;  // |r_s| falls to a half inside at 0.235
   if (fold.value < half_gone) return {};
   return Diagnostic{
-      Severity::warning, file.string() + ": analysis",
+      Severity::warning, c.path.string() + ": analysis",
       "beam \"" + fold.beam + "\" folds back on itself inside an element, at s = " + text_of(fold.s, 6) +
-          " m at t = " + text_of(fold.time, 6) +
-          " s: the part of its axial strain that the element cannot carry is R = " + text_of(fold.value, 2) +
+          " m" + at_moment(c.analysis, fold.time, 6) +
+          ": the part of its axial strain that the element cannot carry is R = " + text_of(fold.value, 2) +
           ", and above 0.2 the beam turns round there; do not trust the result, and take more "
           "elements or, of a rope that goes slack, more damping"};
 }

@@ -20,10 +20,10 @@ std::vector<ProbePlace> probe_places(const BuiltModel& built);
 /// A note where an analysis of modes or buckling was asked for more of them than there are.
 std::optional<Diagnostic> fewer_modes_note(const CaseFile& case_file, const ModeTable& table);
 
-/// A warning where an element is compressed to nothing; `file` heads it.
-std::optional<Diagnostic> compression_warning(const std::filesystem::path& file, const LeastStrain& strain);
+/// A warning where an element is compressed to nothing.
+std::optional<Diagnostic> compression_warning(const CaseFile& case_file, const LeastStrain& strain);
 /// And where one folds back on itself.
-std::optional<Diagnostic> fold_warning(const std::filesystem::path& file, const Fold& fold);
+std::optional<Diagnostic> fold_warning(const CaseFile& case_file, const Fold& fold);
 
 /// Warnings where elements beside supports are too long for what these share of a pull; `file` heads them.
 std::vector<Diagnostic> shared_pull_warnings(const std::filesystem::path& file,

@@ -59,6 +59,7 @@ NurbsCurve drawn_curve(const CaseBeam& beam, const Chain& chain, CadFiles& files
           return curve_of_file(beam, source, chain, files, findings);
         if constexpr (std::is_same_v<Source, NurbsCurve>) return source;
         if constexpr (std::is_same_v<Source, CaseAxis::Polyline>) return curve_through(source);
+        if constexpr (std::is_same_v<Source, BentLines>) return curve_of_cubics(bent_line_cubics(source));
         if constexpr (std::is_same_v<Source, CaseAxis::Arc>)
           return curve_of_cubics(arc_cubics(source.center, source.start, source.end, source.normal));
       },

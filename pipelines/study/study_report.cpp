@@ -87,6 +87,7 @@ Json page_data(const StudyFile& study, const StudyCase* study_case, const StudyR
                {"objectives", Json::array()},
                {"rows", Json::array()},
                {"best", best},
+               {"is_plan", std::holds_alternative<StudyPlan>(study.task)},
                {"curves", study_case ? curves_of(study, *study_case, result.variants, best) : Json::array()}};
   for (const StudyVariable& variable : study.variables)
     data["variables"].push_back(

@@ -162,6 +162,19 @@ void tell(std::ostream& out, const StudyFile& study, const CalibrationResult& re
       << text_of(result.noise, 4) << " of the given sd\n";
 }
 
+// What makes a variant another than the others: the values of its free variables, of the first few.
+std::string row_text(const StudyFile& study, const Variant& variant) {
+  constexpr std::size_t most = 4;
+  std::string text = "variant " + std::to_string(variant.number);
+  const std::vector<std::size_t> free = study.free_variables();
+  for (std::size_t i = 0; i < std::min(most, free.size()); ++i) {
+    const StudyVariable& variable = study.variables[free[i]];
+    text +=
+        (i == 0 ? ": " : ", ") + variable.name + " = " + with_unit(variant.values[free[i]], variable.unit, 6);
+  }
+  return text + (free.size() > most ? ", ..." : "");
+}
+
 // Where quantities are least and greatest, among the variants that are done.
 void tell_ranges(std::ostream& out, const StudyFile& study, const std::vector<Variant>& variants) {
   std::vector<const Variant*> done;
@@ -173,8 +186,7 @@ void tell_ranges(std::ostream& out, const StudyFile& study, const std::vector<Va
     const auto [least, greatest] = std::ranges::minmax_element(
         done, {}, [k](const Variant* variant) { return variant->quantities[k]; });
     const auto told = [&](const Variant& variant) {
-      return with_unit(variant.quantities[k], quantity.unit, 6) + " (variant " +
-             std::to_string(variant.number) + ")";
+      return with_unit(variant.quantities[k], quantity.unit, 6) + " (" + row_text(study, variant) + ")";
     };
     out << quantity.name << "  " << told(**least) << " to " << told(**greatest) << "\n";
   }
@@ -213,7 +225,9 @@ std::string study_plan_text(const StudyFile& study) {
 
 std::string answer_text(const StudyFile& study, const StudyResult& result) {
   std::ostringstream out;
-  if (std::holds_alternative<std::monostate>(result.answer)) tell_ranges(out, study, result.variants);
+  const bool is_plan = std::holds_alternative<std::monostate>(result.answer) ||
+                       (std::holds_alternative<GradientResult>(result.answer) && result.variants.size() > 1);
+  if (is_plan) tell_ranges(out, study, result.variants);
   std::visit([&](const auto& answer) { tell(out, study, answer); }, result.answer);
   const bool searched = std::holds_alternative<OptimumResult>(result.answer) ||
                         std::holds_alternative<CalibrationResult>(result.answer);

@@ -524,7 +524,7 @@ class Model:
 
     def set(self, path: str, value: Any) -> None:
         """Sets one value of the case by its path, as `--set` does: `model.set("beams[0].section.radius", "7 mm")`, also
-        by name, `"beams.cable.elements.count"`; None removes the key or the item. KeyError for a path that leads nowhere,
+        by name, `"beams.cable.elements.count"`; None removes the key or the item, `"loads[+]"` appends one. KeyError for a path that leads nowhere,
         CaseError for a value that cannot stand there; the case is then as it was."""
         asked = _json(value)
         case, json_value = (json.dumps(_finite(each)) for each in (_json(self.case), asked))
@@ -811,7 +811,9 @@ def _put(case: Any, changed: Any, place: Sequence[Any], value: Any) -> None:
         if not isinstance(held, (dict, list)) or type(held) is not type(changed[key]):
             case[key] = changed[key]
         case, changed = case[key], changed[key]
-    if value is not None:
+    if value is not None and isinstance(case, list) and last == len(case):
+        case.append(value)
+    elif value is not None:
         case[last] = value
     elif isinstance(case, list):
         del case[last]

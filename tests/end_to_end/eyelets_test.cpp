@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -293,6 +294,59 @@ TEST(Eyelets, SayWhatCannotDriveOrCarryThem) {
     EXPECT_EQ(run.code, 2) << keys;
     EXPECT_TRUE(run.says(complaint)) << run.messages;
   }
+}
+
+// A bead that runs down a wire to a ring, which is 1.7 m from it and 0.85 m lower.
+std::string bead_before_ring(const std::string& joint, double end_time) {
+  return R"({ "nurbeam": 1,
+    "beams": [{ "name": "wire", "axis": { "polyline": [[0, 0, 0], [4, 0, -2]] }, "section": { "radius": 0.01 },
+      "material": "steel", "elements": { "count": 8 } }],
+    "bodies": [{ "name": "bead", "mass": 1 }],
+    "supports": [{ "beam": "wire", "at": "start", "type": "pinned" },
+                 { "beam": "wire", "at": "end", "type": "pinned" }],
+    "sliding_joints": [{ "body": "bead", "beam": "wire", "at": { "near": [0.6, 0, -0.3] }, )" +
+         joint + R"( }],
+    "eyelets": [{ "name": "ring", "beam": "wire", "at": { "near": [2.3, 0, -1.15] } }],
+    "analysis": { "end_time": )" +
+         std::to_string(end_time) + R"(, "step": 0.002 }, "output": { "report": false } })";
+}
+
+struct Checked {
+  int code;
+  std::string text;
+  bool says(const std::string& part) const { return text.find(part) != std::string::npos; }
+};
+Checked checked(const std::string& text, const std::vector<std::string>& changes = {}) {
+  const test::TemporaryDirectory directory;
+  std::vector<std::string> words = {"check", directory.write("case.json", text).string()};
+  for (const std::string& change : changes) words.insert(words.end(), {"--set", change});
+  std::ostringstream out, err;
+  const test::CapturedErrors errors;
+  const int code = run_command_line(words, out, err);
+  return {code, out.str() + err.str() + errors.text()};
+}
+
+// s = g sin(a) t^2 / 2 with s = 1.7 hypot(1, 0.5) m: it is there at 0.931 s.
+TEST(Eyelets, AreInTheWayOfBodiesThatRunDownToThem) {
+  const std::string at_rest = R"("speed": 0)";
+  const double there = std::sqrt(2 * 1.7 * std::hypot(1, 0.5) / (9.81 * 0.5 / std::hypot(1, 0.5)));
+  const Checked late = checked(bead_before_ring(at_rest, there + 0.01));
+  EXPECT_EQ(late.code, 0) << late.text;
+  EXPECT_TRUE(late.says("body \"bead\" may run into eyelet \"ring\", at s = 2.57148 m of beam \"wire\""))
+      << late.text;
+  EXPECT_TRUE(late.says("it is there at t = 0.931 s; nothing passes an eyelet")) << late.text;
+  EXPECT_FALSE(checked(bead_before_ring(at_rest, there - 0.01)).says("may run into"));
+  EXPECT_FALSE(checked(bead_before_ring(at_rest, 2),
+                       {R"(stops=[{"beam": "wire", "at": {"near": [2, 0, -1]}, "stiffness": 1000}])"})
+                   .says("may run into"));
+  EXPECT_FALSE(checked(bead_before_ring(R"("speed": -1)", 2)).says("may run into"));
+}
+
+TEST(Eyelets, RefuseAPrescribedMotionThroughThem) {
+  const Checked motion = checked(bead_before_ring(R"("motion": { "speed": 2 })", 1));
+  EXPECT_EQ(motion.code, 2) << motion.text;
+  EXPECT_TRUE(motion.says("sliding_joints[0].motion: takes body \"bead\" to eyelet \"ring\"")) << motion.text;
+  EXPECT_EQ(checked(bead_before_ring(R"("motion": { "speed": 2 })", 0.9)).code, 0);
 }
 
 }  // namespace

@@ -54,6 +54,16 @@ TEST(PrescribedMotion, LeavesAtAFreeEndAndFliesOn) {
   EXPECT_NEAR(run.last("energy.total [J]"), run.value(0, "energy.total [J]"), 5e-3);
 }
 
+// Time is the load factor there, and nothing has a speed.
+TEST(PrescribedMotion, OfLoadStepsHasNoSpeedThatCouldJump) {
+  const CaseRun run = run_driven(
+      {R"(analysis={"type": "static", "load_steps": [0.2, 0.6, 1]})", "output.every=null",
+       R"(sliding_joints[0].motion={"interpolation": "linear", "table": [[0, 0.5], [0.4, 0.9], [1, 1.9]]})"});
+  EXPECT_EQ(run.code, 0) << run.messages;
+  EXPECT_FALSE(run.says("speed")) << run.messages;
+  EXPECT_FALSE(run.says(" s:")) << run.messages;
+}
+
 // A body of 1 kg that its table makes stop, go on faster and come back does no work but that of its own
 // kinetic energy and of the bar, which hardly moves without gravity.
 TEST(PrescribedMotion, JumpsInItsSpeedAreTheWorkOfItsDrive) {

@@ -177,6 +177,9 @@ def test_paths_set_values_as_the_command_line_does():
     assert model.case["output"] == {"every": "1 ms"}
     model.set("output.every", None)
     assert model.case["output"] == {}
+    for force in ([0, 1, 0], [0, 2, 0]):
+        model.set("loads[+]", {"beam": "stick", "at": "end", "force": force})
+    assert [load["force"] for load in model.case["loads"]] == [[0, 1, 0], [0, 2, 0]]
     with pytest.raises(KeyError, match='did you mean \\\\?"stick'):
         model.set("beams.stik.name", "x")
     with pytest.raises(KeyError, match=r"there is no \[3\]"):

@@ -337,9 +337,14 @@ TEST(Plan, IsAnsweredByTheRangesOfItsQuantities) {
     "quantities": [{"name": "f", "value": "x", "unit": "mm"}], "plan": {"grid": 3}})json");
   StudyResult result;
   for (const double f : {2.5, -1.0, 7.0, 100.0})
-    result.variants.push_back({.number = result.variants.size(), .values = {0}, .quantities = {f}});
+    result.variants.push_back(
+        {.number = result.variants.size(), .values = {f / 10}, .quantities = {f}, .gradient = {{0.5}}});
   result.variants.back().status = VariantStatus::failed;
-  EXPECT_EQ(answer_text(study, result), "f  -1 mm (variant 1) to 7 mm (variant 2)\n");
+  const std::string ranges = "f  -1 mm (variant 1: x = -0.1) to 7 mm (variant 2: x = 0.7)\n";
+  EXPECT_EQ(answer_text(study, result), ranges);
+  result.answer = GradientResult{result.variants};
+  EXPECT_TRUE(answer_text(study, result).starts_with(ranges)) << answer_text(study, result);
+  result.answer = std::monostate{};
   result.variants.clear();
   EXPECT_EQ(answer_text(study, result), "");
 }

@@ -36,7 +36,7 @@ struct Checkpoint {
   std::vector<StepRecord> steps;  ///< since the last snapshot
   SimulationReport report;        ///< so far
   std::vector<double> peaks;      ///< of the watch between snapshots (PeakWatch::numbers)
-  std::vector<double> extremes;   ///< of the run: value, s and time of each
+  std::vector<double> extremes;   ///< of the run: value, s, time and layer of each
   /// Warnings about files written before the checkpoint, so that each is told once: file and warning.
   std::vector<std::string> said_of_files;
 };

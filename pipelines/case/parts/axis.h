@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <variant>
 
+#include "nurbs/bent_lines.h"
 #include "nurbs/nurbs_curve.h"
 #include "pipelines/case/fields.h"
 
@@ -33,7 +34,7 @@ struct CaseAxis {
   struct Arc {
     Eigen::Vector3d center, start, end, normal;
   };
-  std::variant<File, NurbsCurve, Polyline, Arc> source;
+  std::variant<File, NurbsCurve, Polyline, BentLines, Arc> source;
 };
 
 /// What the keys of a CurveChoice mean.

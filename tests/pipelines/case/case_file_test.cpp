@@ -511,6 +511,79 @@ TEST_F(CaseFileTest, OverridesNameItemsByNumberOrName) {
               {"there is no [troley]", "trolley"});
 }
 
+TEST_F(CaseFileTest, LinesHaveArcsOfABendRadius) {
+  const std::string lines = R"("polyline": [[0, 0, 0], [1, 0, 0], [1, 0.8, 0], [1, 1.4, 0.6]])";
+  const auto axis = [&](const std::string& radius) {
+    return "beams[0].axis={" + lines + ", \"bend_radius\": " + radius + "}";
+  };
+  const auto lines_of = [&](const std::string& radius) {
+    return std::get<BentLines>(read_valid(smallest_case, {axis(radius)}).beams[0].axis.source);
+  };
+  EXPECT_EQ(lines_of("\"150 mm\"").radii, std::vector<double>{0.15});
+  EXPECT_EQ(lines_of("[0.15, \"30 cm\"]").radii, (std::vector<double>{0.15, 0.3}));
+  const auto refuse = [&](const std::string& radius, const std::string& where,
+                          const std::vector<std::string>& parts) {
+    check_error(read(smallest_case, {axis(radius)}), file() + ": beams[0].axis.bend_radius" + where, parts);
+  };
+  refuse("0.7", "", {"is 0.7 m", "polyline[1], (1, 0, 0)", "at most 0.56568 m"});
+  refuse("[0.6, 0.6]", "[0]", {"is 0.6 m", "polyline[1], (1, 0, 0)", "at most 0.55147 m"});
+  refuse("[0.9, 0.1]", "[0]", {"polyline[1]", "at most 0.75857 m", "beside the arcs next to it"});
+  refuse("0", "", {"greater than 0"});
+  refuse("[0.1]", "", {"has 1 radii for 2 corners", "one for each", "one number for all"});
+  check_error(read(smallest_case, {"beams[0].axis.bend_radius=0.1"}), file() + ": beams[0].axis.bend_radius",
+              {"one line has none"});
+  check_error(read(smallest_case, {"beams[0].axis.polyline[+]=[0.5, 0, 0]", "beams[0].axis.bend_radius=0.1"}),
+              file() + ": beams[0].axis.bend_radius", {"goes back on itself", "polyline[1]"});
+}
+
+TEST_F(CaseFileTest, OverridesAppendToLists) {
+  const std::string load = R"({"beam": "cable", "at": "end", "force": [0, 0, -5]})";
+  const CaseFile first = read_valid(smallest_case, {"loads[+]=" + load, "loads[+]=" + load});
+  ASSERT_EQ(first.loads.size(), 2u);  // the case has no loads
+  EXPECT_EQ(first.loads[1].value, Eigen::Vector3d(0, 0, -5));
+  const std::size_t before = read_valid(full_case).loads.size();
+  const std::string number = std::to_string(before);
+  const CaseFile more =
+      read_valid(full_case, {"loads[+]=" + load, "loads[" + number + "].force[2]=-7",
+                             R"(supports[+]={"beam": "cable", "at": "end", "type": "pinned"})",
+                             "beams[0].axis={\"polyline\": [[0, 0, 0], [1, 0, 0]]}",
+                             "beams[0].axis.polyline[+]=[2, 0, 0]", "loads[0].time[+]=[2, 0.5]"});
+  ASSERT_EQ(more.loads.size(), before + 1);
+  EXPECT_EQ(more.loads[before].value, Eigen::Vector3d(0, 0, -7));
+  EXPECT_EQ(std::get<CaseAxis::Polyline>(more.beams[0].axis.source).size(), 3u);
+  EXPECT_EQ(more.loads[0].time.size(), read_valid(full_case).loads[0].time.size() + 1);
+}
+
+TEST_F(CaseFileTest, OverridesSetNamesOfMaps) {
+  const std::string body =
+      R"(bodies=[{"name": "cart", "mass": 3, "inertia": [1, 1, 1], "position": [0, 0, 0]}])";
+  const auto points = [&](std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), body);
+    return read_valid(smallest_case, overrides).bodies.size();
+  };
+  const std::size_t alone = points({});
+  EXPECT_EQ(points({"bodies[cart].points.hook=[0.4, 0, 0]"}), alone + 1);  // each is a place of the body
+  EXPECT_EQ(points({"bodies[cart].points.hook=[0.4, 0, 0]", "bodies[0].points.rear=[0, 0, 0]",
+                    "bodies[0].points.hook[2]=0.1"}),
+            alone + 2);
+  EXPECT_EQ(points({"bodies[cart].points.hook=[0.4, 0, 0]", "bodies[cart].points.hook=null"}), alone);
+  check_error(read(smallest_case, {body, "bodies[0].points.hook=high"}), file() + ": bodies[0].points.hook",
+              {"expected [x, y, z]"});
+}
+
+TEST_F(CaseFileTest, WhatCannotBeAppendedIsRefused) {
+  const auto refuse = [&](const std::string& text, const std::vector<std::string>& parts) {
+    check_error(read(smallest_case, {text}), "--set " + text, parts);
+  };
+  refuse("gravity[+]=3", {"gravity", "no list"});
+  refuse("loads[+]=null", {"null removes"});
+  refuse("loads[+].force=[0, 0, 1]", {"loads[+]", "new item", "loads[+]={...}"});
+  refuse("loads[0].force=[0, 0, 1]", {"loads has no items", "loads[+]=VALUE"});
+  refuse("beams[1].name=x", {"there is no [1]", "beams[+]=VALUE appends one"});
+  refuse("loads[+]={beam: tube}", {"cannot be read as JSON", "double quotes", "loads[+]={\"beam\""});
+  refuse("gravity=[0, 0, -9.81", {"cannot be read as JSON"});
+}
+
 TEST_F(CaseFileTest, APartOfAStandardMaterialLeavesTheOthers) {
   const std::vector<std::string> overrides = {"beams[0].material=steel",
                                               "beams[0].material.youngs_modulus=190 GPa"};
@@ -812,6 +885,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "point",
                                                "stiffness",
                                                "end_masses",
+                                               "bend_radius",
                                                "bends",
                                                "clearances",
                                                "compression",

@@ -30,8 +30,10 @@ TEST(EnergyWarning, NamesTheFormOfTheElementsWhereItIsTheCause) {
 }
 
 TEST(FoldWarning, RingsWhereAnElementTurnsRoundAndNamesTheCause) {
-  EXPECT_FALSE(fold_warning("c.json", {.value = 0.19, .beam = "r", .s = 7.2, .time = 0.5}));
-  const auto warning = fold_warning("c.json", {.value = 0.23, .beam = "r", .s = 7.2, .time = 0.5});
+  CaseFile c;
+  c.path = "c.json";
+  EXPECT_FALSE(fold_warning(c, {.value = 0.19, .beam = "r", .s = 7.2, .time = 0.5}));
+  const auto warning = fold_warning(c, {.value = 0.23, .beam = "r", .s = 7.2, .time = 0.5});
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->severity, Severity::warning);
   for (const char* part : {"\"r\" folds back", "s = 7.2 m", "t = 0.5 s", "R = 0.23", "more elements"})
