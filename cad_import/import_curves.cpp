@@ -28,12 +28,29 @@ ImportReport error_report(const fs::path& file, const std::string& message) {
 
 std::string megabytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
 
+// The CAD files beside one that is not there, of which one was meant.
+std::string files_beside(const fs::path& file) {
+  constexpr std::size_t most = 10;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return "; there is no folder " + folder.string();
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_named_as_cad_file(entry.path())) names.push_back(entry.path().filename().string());
+  if (names.empty()) return "; no CAD file is in its folder";
+  std::sort(names.begin(), names.end());
+  std::string list;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) list += (i == 0 ? "" : ", ") + names[i];
+  return "; in its folder there are: " + list + (names.size() > most ? ", ..." : "");
+}
+
 // Why the path cannot hold a CAD file at all; nothing if it may.
 std::optional<std::string> unusable(const fs::path& file, std::size_t size_limit) {
   const std::string expected = std::string("; expected a ") + cad_formats + " file";
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) return "there is no such file" + expected;
+  if (status.type() == fs::file_type::not_found)
+    return "there is no such file" + expected + files_beside(file);
   if (error) return error.message() + expected;
   if (fs::is_directory(status)) return "it is a directory" + expected;
   if (!fs::is_regular_file(status)) return "it is not a regular file" + expected;

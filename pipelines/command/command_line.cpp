@@ -149,7 +149,8 @@ int run_command_by_name(const std::vector<Command>& table, const std::vector<std
     return command.run(Parser(command).parse({words.begin() + 1, words.end()}), streams);
   } catch (const UsageError& error) {
     streams.err << "error: nurbeam " << command.name << ": " << error.what()
-                << "\nusage: " << usage_of(command) << '\n';
+                << "\nusage: " << brief_usage_of(command) << "; nurbeam " << command.name
+                << " --help has more\n";
     return exit_bad_input;
   } catch (const std::invalid_argument& error) {
     return fail(exit_bad_input, error);

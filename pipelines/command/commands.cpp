@@ -210,7 +210,7 @@ Command inspect_entry() {
   return {
       "inspect",
       "FILE...",
-      "lists the curves of STEP, IGES, DXF, BREP and JSON files; with --profile: the section that they draw",
+      "lists the curves of STEP, IGES, DXF, IFC, BREP and JSON files; with --profile: the section that they draw",
       1,
       any_number,
       {{"--json", "", "as JSON"}, {"--profile", "", "area, moments and torsion constant of the section"}},
@@ -377,16 +377,6 @@ const std::vector<Command>& commands() {
                                              completion_entry(),
                                              manual_entry()};
   return table;
-}
-
-std::string usage_of(const Command& command) {
-  std::string usage = "nurbeam " + command.name;
-  if (!command.positional.empty()) usage += " " + command.positional;
-  for (const CommandOption& option : command.options) {
-    const std::string text = option.name + (option.value.empty() ? "" : " " + option.value);
-    usage += " " + (option.required ? text : "[" + text + "]") + (option.repeated ? "..." : "");
-  }
-  return usage;
 }
 
 }  // namespace nurbeam

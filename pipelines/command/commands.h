@@ -63,7 +63,4 @@ struct Command {
 /// The commands of nurbeam.
 const std::vector<Command>& commands();
 
-/// "nurbeam run CASE.json [--out DIR] ...".
-std::string usage_of(const Command& command);
-
 }  // namespace nurbeam

@@ -22,6 +22,28 @@ const char* const exit_codes =
 
 }  // namespace
 
+std::string brief_usage_of(const Command& command) {
+  std::string usage = "nurbeam " + command.name;
+  if (!command.positional.empty()) usage += " " + command.positional;
+  bool has_others = false;
+  for (const CommandOption& option : command.options)
+    if (option.required)
+      usage += " " + option.name + " " + option.value;
+    else
+      has_others = true;
+  return usage + (has_others ? " [options]" : "");
+}
+
+std::string usage_of(const Command& command) {
+  std::string usage = "nurbeam " + command.name;
+  if (!command.positional.empty()) usage += " " + command.positional;
+  for (const CommandOption& option : command.options) {
+    const std::string text = option.name + (option.value.empty() ? "" : " " + option.value);
+    usage += " " + (option.required ? text : "[" + text + "]") + (option.repeated ? "..." : "");
+  }
+  return usage;
+}
+
 std::string manual_page(const std::vector<Command>& commands) {
   std::ostringstream page;
   page << ".TH NURBEAM 1 \"\" \"nurbeam " NURBEAM_VERSION
@@ -59,12 +81,37 @@ std::string bash_completion(const std::vector<Command>& commands) {
   return script.str();
 }
 
+namespace {
+
+// Lines that a terminal of 80 columns has room for, each behind the indentation.
+std::string wrapped(const std::string& words, const std::string& indentation) {
+  constexpr std::size_t width = 79;
+  std::istringstream stream(words);
+  std::string text, line = indentation;
+  for (std::string word; stream >> word;) {
+    const bool is_first = line.size() == indentation.size();
+    if (!is_first && line.size() + 1 + word.size() > width) {
+      text += line + "\n";
+      line = indentation + word;
+    } else {
+      line += (is_first ? "" : " ") + word;
+    }
+  }
+  return text + line + "\n";
+}
+
+}  // namespace
+
 std::string help_text(const std::vector<Command>& commands) {
   std::ostringstream text;
-  text << "nurbeam " NURBEAM_VERSION ": CAD curves to flexible beams with sliding joints, and back\n\n";
+  text << "nurbeam " NURBEAM_VERSION
+          ": CAD curves to flexible beams with sliding joints, and back\n\n"
+          "A first result: nurbeam inspect CURVE.step, nurbeam check CASE.json,\n"
+          "nurbeam run CASE.json; docs/getting-started.md shows the three.\n\n";
   for (const Command& command : commands)
-    text << "  " << usage_of(command) << "\n      " << command.help << '\n';
-  text << "\nExit codes: " << exit_codes << '\n';
+    text << "  " << brief_usage_of(command) << "\n" << wrapped(command.help, "      ");
+  text << "\nnurbeam COMMAND --help: the options of a command\n"
+       << wrapped(std::string("Exit codes: ") + exit_codes, "");
   return text.str();
 }
 

@@ -6,6 +6,11 @@
 
 namespace nurbeam {
 
+/// "nurbeam run CASE.json [--out DIR] ...".
+std::string usage_of(const Command& command);
+/// The same with the options alone that must be given: "nurbeam run CASE.json [options]".
+std::string brief_usage_of(const Command& command);
+
 /// The manual page nurbeam(1), in roff.
 std::string manual_page(const std::vector<Command>& commands);
 

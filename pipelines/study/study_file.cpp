@@ -271,6 +271,21 @@ class StudyReader : StudyPartReader {
                       "all have a \"value\"; one at least needs a \"range\" or a \"distribution\"");
   }
 
+  // A unit converts nothing, and columns have SI units: a number that is taken from one as it is has no
+  // other.
+  void check_unit(const Expression& value, const std::string& unit, const std::string& path) {
+    const std::optional<double> size = in_si_units(unit);
+    const bool is_scaled = value.text().find_first_of("*/") != std::string::npos;
+    const bool has_columns = std::ranges::any_of(
+        value.names(), [](const std::string& name) { return name.find('.') != std::string::npos; });
+    if (!size || *size == 1 || is_scaled || !has_columns || unit == "deg") return;
+    findings_.warn(child(path, "unit"),
+                   "is " + in_quotes(unit) +
+                       ", which is written beside the number and converts nothing; columns have "
+                       "SI units: let \"value\" be \"" +
+                       value.text() + " / " + text_of(*size) + "\", or leave the unit out");
+  }
+
   void read_quantity(const Json& json, const std::string& path) {
     const std::string name = text(json, "name");
     for (const StudyVariable& variable : study_.variables)
@@ -285,6 +300,7 @@ class StudyReader : StudyPartReader {
     Expression value = has(json, "value") ? parsed_or_zero(text(json, "value"), child(path, "value"))
                                           : Expression::parse("0");
     if (!json_.contains("case")) check_formula(value, child(path, "value"));
+    check_unit(value, text(json, "unit"), path);
     study_.quantities.push_back({name, text(json, "unit"), path, std::move(value)});
   }
 };

@@ -104,6 +104,16 @@ for (const study of ['grid', 'many', 'derivatives', 'indices', 'nothing', 'front
   });
 }
 
+study_test('a plan names the variants in which quantities are least and greatest', 'grid', async (page) => {
+  assert.deepEqual(await texts(page, '#answer th'), ['', 'value', 'variant', 'x', 'y']);
+  const rows = await page.$$eval('#answer tr.click', (nodes) => nodes.map((row) => [...row.children].map((cell) => cell.textContent)));
+  assert.deepEqual(rows.map(([name, value, , x, y]) => [name, value, x, y]), [
+    ['least f [N]', '-1', '0', '-1'], ['greatest f [N]', '101', '10', '1'],
+    ['least g [m]', '-10', '10', '-1'], ['greatest g [m]', '10', '10', '1']]);
+  await page.click('#answer tr.click:nth-child(3)');
+  assert.ok((await texts(page, '#chosen td')).includes('101'));
+});
+
 study_test('a grid of two variables is a family of curves and a map', 'grid', async (page) => {
   assert.ok((await texts(page, 'h2')).includes('Quantities over both variables'));
   assert.equal(await page.$$eval('#grid-map .family', (lines) => lines.length), 2 * 4);

@@ -43,6 +43,11 @@ int open_descriptors() {
 TEST(HostileFile, WhatIsNoFileIsAnError) {
   const ScratchDirectory scratch;
   expect_error(import_curves(scratch.path() / "missing.step"), "missing.step", "no such file");
+  expect_error(import_curves(scratch.path() / "no" / "missing.step"), "missing.step", "there is no folder");
+  expect_error(import_curves(scratch.path() / "missing.step"), "missing.step",
+               "no CAD file is in its folder");
+  scratch.file("there.igs", "x");
+  expect_error(import_curves(scratch.path() / "missing.step"), "missing.step", "there are: there.igs");
   expect_error(import_curves(scratch.path()), scratch.path(), "directory");
   expect_error(import_curves("/dev/null"), "/dev/null", "not a regular file");
 }

@@ -61,6 +61,32 @@ TEST(StudyFile, WarnsOfAVariableThatChangesNothing) {
   EXPECT_EQ(of_x.find("\"y\" changes"), std::string::npos) << of_x;
 }
 
+// A tension of 2374 N would stand in the table as 2374 kN.
+TEST(StudyFile, WarnsOfAUnitThatANumberDoesNotHave) {
+  const auto warned = [](const std::string& value, const std::string& unit) {
+    const TemporaryDirectory directory;
+    const StudyFileReport report = read_study_file(directory.write("study.json", R"json({
+      "nurbeam_study": 1, "case": "case.json",
+      "variables": [{"name": "m", "path": "bodies[0].mass", "range": [1, 2]}],
+      "quantities": [{"name": "f", "value": ")json" + value + R"json(", "unit": ")json" +
+                                                                                     unit + R"json("}],
+      "plan": {"grid": 2}})json"));
+    std::string all;
+    for (const Diagnostic& d : report.diagnostics)
+      if (d.where.ends_with(".unit")) all += d.message;
+    return all;
+  };
+  EXPECT_NE(warned("max(a.axial_force.max)", "kN").find("let \"value\" be \"max(a.axial_force.max) / 1000\""),
+            std::string::npos)
+      << warned("max(a.axial_force.max)", "kN");
+  EXPECT_NE(warned("max(a.sag)", "mm").find("/ 0.001\""), std::string::npos);
+  for (const auto& [value, unit] : {std::pair("max(a.axial_force.max) / 1000", "kN"),
+                                    {"max(a.axial_force.max)", "N"},
+                                    {"m", "g"},
+                                    {"max(a.sag)", "parts"}})
+    EXPECT_EQ(warned(value, unit), "") << value;
+}
+
 TEST(StudyFile, SaysAllThatIsWrongAtOnceWithItsPlace) {
   const std::string wrong = wrong_with(R"json({
     "nurbeam_study": 1, "case": "c.json",

@@ -48,6 +48,11 @@ NurbsCurve line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
   EXPECT_EQ(run_line({"--help"}).code, 0);
   EXPECT_TRUE(text_holds(run_line({"--help"}).out, "nurbeam compare A B"));
+  EXPECT_TRUE(text_holds(run_line({"--help"}).out, "nurbeam run CASE.json [options]\n"));
+  EXPECT_TRUE(
+      text_holds(run_line({"--help"}).out, "nurbeam export RESULTS_DIR --time T --to FILE [options]"));
+  std::istringstream help(run_line({"--help"}).out);
+  for (std::string line; std::getline(help, line);) EXPECT_LE(line.size(), 80U) << line;
   EXPECT_TRUE(text_holds(run_line({"run", "--help"}).out, "--set path=value"));
   EXPECT_TRUE(run_line({"--version"}).out.starts_with("nurbeam "));
   EXPECT_EQ(run_line({}).code, 2);
