@@ -24,10 +24,14 @@ class End(NamedTuple):
 
 
 def links_of(value):
-    """The links, each to parts of one object, of an `App::PropertyXLinkSub` or an `App::PropertyXLinkSubList`."""
+    """The links, each to parts of one object, of an `App::PropertyXLinkSub` or an `App::PropertyXLinkSubList`.
+
+    A list has them in the order of addresses in memory, which is another after loading: they are sorted by names, so that a
+    beam has its start at the same end for ever."""
     if not value:
         return []
-    return list(value) if isinstance(value, list) and isinstance(value[0], tuple) else [value]
+    is_list = isinstance(value, list) and isinstance(value[0], tuple)
+    return sorted(value, key=lambda link: (link[0].Document.Name, link[0].Name)) if is_list else [value]
 
 
 def parts_of_link(link):

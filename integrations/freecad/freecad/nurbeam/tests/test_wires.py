@@ -79,10 +79,13 @@ class Wires(DocumentTest):
         beam.Axis = places.whole_bodies(links)
         self.document.recompute()
         self.assertAlmostEqual(beam.Length.Value, 250 + 25 * math.pi, 9)
-        name = beam.Name
+        self.assertEqual(places.links_of(links[::-1]), places.links_of(links))
+        start, first, name = axis_of(beam).nurbs["control_points"][0], drawn[0].Name, beam.Name
         beam = self.reopened().getObject(name)
         self.assertEqual(len(beam.Axis), 3)
-        beam.Axis[1][0].Shape = Part.makeLine(Vector(-50, 0, 0), Vector(100, 0, 0))
+        self.assertEqual([root.Name for root, _ in places.parts_of_link(beam.Axis)], sorted(root.Name for root, _ in beam.Axis))
+        self.assertEqual(axis_of(beam).nurbs["control_points"][0], start)
+        self.document.getObject(first).Shape = Part.makeLine(Vector(-50, 0, 0), Vector(100, 0, 0))
         self.document.recompute()
         self.assertAlmostEqual(beam.Length.Value, 300 + 25 * math.pi, 9)
         part = self.document.getObject("Part")
