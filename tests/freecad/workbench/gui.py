@@ -16,7 +16,7 @@ from PySide import QtCore, QtGui
 PICTURES = os.environ["NURBEAM_PICTURES"]
 report = open("gui_report", "w")
 problems = []
-faulthandler.dump_traceback_later(int(os.environ.get("NURBEAM_PATIENCE", "270")), exit=True, file=report)  # where it hangs
+faulthandler.dump_traceback_later(int(os.environ.get("NURBEAM_PATIENCE", "540")), exit=True, file=report)  # where it hangs
 
 
 def expect(what, condition):
