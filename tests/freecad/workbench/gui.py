@@ -16,7 +16,7 @@ from PySide import QtCore, QtGui
 PICTURES = os.environ["NURBEAM_PICTURES"]
 report = open("gui_report", "w")
 problems = []
-faulthandler.dump_traceback_later(int(os.environ.get("NURBEAM_PATIENCE", "270")), exit=True, file=report)  # where it hangs
+faulthandler.dump_traceback_later(int(os.environ.get("NURBEAM_PATIENCE", "540")), exit=True, file=report)  # where it hangs
 
 
 def expect(what, condition):
@@ -295,7 +295,54 @@ def test_quantities_in_their_own_units(document):
 
 
 def titles():
-    return [w.windowTitle() for w in Gui.getMainWindow().findChildren(QtGui.QWidget) if w.isVisible()]
+    found = []
+    for widget in Gui.getMainWindow().findChildren(QtGui.QWidget):
+        try:
+            found += [widget.windowTitle()] if widget.isVisible() else []
+        except RuntimeError:
+            pass  # deleted meanwhile
+    return found
+
+
+def test_commands_of_a_result():
+    run_command("Nurbeam_Check")
+    expect("Check opens the panel of the analysis", any(t == "Analysis" for t in titles()) and dialog())
+    close(False)
+    run_command("Nurbeam_Results")
+    expect("Results opens that of the result", wait_for(lambda: dialog() and "Result of Analysis" in titles(), 20))
+    close(False)
+    run_command("Nurbeam_Plot")
+    dock = Gui.getMainWindow().findChild(QtGui.QDockWidget, "nurbeam plot")
+    expect("Plot shows the energy", dock is not None and dock.isVisible())
+    dock.hide()
+
+
+def test_fem():
+    """A cantilever of FEM, as its own commands make it."""
+    import ObjectsFem
+
+    from freecad.nurbeam import objects
+
+    document = FreeCAD.newDocument("Fem")
+    expect("without a FEM analysis there is nothing to take over", not Gui.Command.get("Nurbeam_TakeOverFem").isActive())
+    bar = document.addObject("Part::Feature", "Bar")
+    bar.Shape = Part.makeLine(Vector(0, 0, 0), Vector(1000, 0, 0))
+    fem = ObjectsFem.makeAnalysis(document, "FEM")
+    section, card = ObjectsFem.makeElementGeometry1D(document, sectiontype="Circular"), ObjectsFem.makeMaterialSolid(document, "Steel")
+    section.References, section.CircDiameter = [(bar, "Edge1")], "20 mm"
+    card.Material = {"Name": "Steel", "Density": "7900 kg/m^3", "YoungsModulus": "200000 MPa"}
+    fixed, force = ObjectsFem.makeConstraintFixed(document), ObjectsFem.makeConstraintForce(document)
+    fixed.References, force.References, force.Force = [(bar, "Vertex1")], [(bar, "Vertex2")], 25.0
+    for each in (section, card, fixed, force):
+        fem.addObject(each)
+    document.recompute()
+    run_command("Nurbeam_TakeOverFem")
+    found = [objects.type_of(o) for o in document.Objects if objects.type_of(o)]
+    wanted = [cls.TYPE for cls in (objects.Analysis, objects.Beam, objects.Support, objects.Load)]
+    expect(f"a FEM analysis is taken over: {found}", sorted(found) == sorted(wanted))
+    document.undo()
+    expect("in one step of undo", not any(objects.type_of(o) for o in document.Objects))
+    FreeCAD.closeDocument("Fem")
 
 
 def test_a_connector_is_a_line_between_its_ends(document, beam):
@@ -333,7 +380,7 @@ def test_faults(document, beam):
     panel.messages.itemClicked.emit(panel.messages.item(0))
     settle(0.4)
     expect("one click selects the object", Gui.Selection.getSelection() == [beam])
-    expect("and opens its panel", wait_for(lambda: beam.Label in titles(), 5))
+    expect("and opens its panel", wait_for(lambda: beam.Label in titles(), 20))
     close(False)
 
 
@@ -651,12 +698,14 @@ def main():
     test_gate()
     test_every_panel_opens(document, beam)
     test_quantities_in_their_own_units(document)
+    test_commands_of_a_result()
     test_a_connector_is_a_line_between_its_ends(document, beam)
     test_faults(document, beam)
     test_cable()
     test_a_new_user(folder)
     test_material_and_edges_of_two_objects()
     test_german()
+    test_fem()
     test_zip_line()
     test_a_document_that_is_opened_again()
     test_two_analyses()

@@ -32,7 +32,7 @@ def field_of(obj, row):
 
 def _quantity(obj, row):
     """FreeCAD's own box, which takes units and expressions. It shows two decimals of what has no format of its own."""
-    box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
+    box = _new_box()
     quantity = FreeCAD.Units.Quantity(getattr(obj, row.name))  # of its own: the format of the property's would be written to it
     quantity.Format = {"Precision": DIGITS, "NumberFormat": "g", "Denominator": 8}
     box.setProperty("unit", quantity.getUserPreferred()[2])
@@ -44,6 +44,20 @@ def _quantity(obj, row):
     QtCore.QObject.connect(box, QtCore.SIGNAL("valueChanged(double)"),
                            lambda value: setattr(obj, row.name, FreeCAD.Units.Quantity(value, unit)))  # fmt: skip
     return box
+
+
+def _new_box():
+    """PySide takes a new box for one that was deleted where it stands at the address of that and Python still refers to it: then
+    another one is made, while the first keeps its address."""
+    boxes = []
+    for _ in range(20):
+        boxes.append(FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox"))
+        try:
+            boxes[-1].objectName()
+            break
+        except RuntimeError:
+            continue
+    return boxes[-1]
 
 
 def _quantity_in_unit(obj, row):

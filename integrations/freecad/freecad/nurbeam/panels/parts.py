@@ -101,6 +101,7 @@ class PartPanel(TaskPanel):
         self.timer.stop()
         if isinstance(self.obj.Proxy, (Placed, objects.Beam)):
             FreeCAD.removeDocumentObserver(self)
+        self.fields, self.labels, self.tab_of = {}, {}, {}  # widgets that FreeCAD deletes
         super().leave()
 
     def build(self):

@@ -1,13 +1,14 @@
 """The panel of an analysis: what is asked for, Check, Run, Stop, progress, and messages that lead to their objects."""
 
 import FreeCADGui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 from .. import objects
 from ..language import tr
 from ..run.run_analysis import Finding, Run, check, edited_documents, start_run
 from ..run.command import Missing
 from .parts import PartPanel, label_of
+from .task import when_closed
 
 COLOURS = {"error": "#b00020", "warning": "#a06000"}
 
@@ -123,12 +124,12 @@ class RunPanel(PartPanel):
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(finding.obj)
         self.accept()
-        QtCore.QTimer.singleShot(0, lambda: _open(finding))
+        when_closed(lambda: _open(finding))
 
     def open_results(self):
         result = objects.result_of(self.obj)
         self.accept()
-        QtCore.QTimer.singleShot(0, lambda: FreeCADGui.getDocument(result.Document.Name).setEdit(result.Name))
+        when_closed(lambda: FreeCADGui.getDocument(result.Document.Name).setEdit(result.Name))
 
 
 def _faults():

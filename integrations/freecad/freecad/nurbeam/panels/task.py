@@ -1,9 +1,20 @@
 """What all panels have in common: one step of undo, OK that keeps it, and Cancel that takes it back."""
 
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from ..run.run_analysis import edited_documents
+
+
+CLOSING, TRIES = 50, 100  # ms between looks whether a panel has closed, and how many
+
+
+def when_closed(action, tries=TRIES):
+    """Does something once the present panel is gone: FreeCAD closes it later than it is told to."""
+    if not FreeCADGui.Control.activeDialog():
+        action()
+    elif tries:
+        QtCore.QTimer.singleShot(CLOSING, lambda: when_closed(action, tries - 1))
 
 
 class TaskPanel:

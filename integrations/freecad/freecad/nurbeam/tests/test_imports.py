@@ -53,6 +53,10 @@ class Imports(unittest.TestCase):
             "run, findings = run_analysis.start_run(a)",
             "assert run is None and 'install the package python3-nurbeam' in findings[0].message, findings",
             "assert abs(a.Group[0].Length.Value - 1000) < 1e-9",
+            "d.saveAs(__file__ + '.FCStd')",
+            "FreeCAD.closeDocument(d.Name)",
+            "d = FreeCAD.openDocument(__file__ + '.FCStd')",
+            "assert d.Analysis.Proxy.TYPE == 'Nurbeam::Analysis' and d.Load.Force.Value == 10000",
             "sys.exit(7)",
         ])  # fmt: skip
         import tempfile
