@@ -8,8 +8,8 @@ struct AppliedOverride {
   std::string problem;  ///< "" where the case has been changed
   std::string path;     ///< of the value, items of arrays by their number: beams[0].section.radius
 };
-/// Null removes the key or the item; [+] behind a list appends an item to it, and makes the list where there is
-/// none. The case is as it was where there is a problem.
+/// Null removes the key or the item; [+] behind a list appends an item to it, and makes the list where there
+/// is none. The case is as it was where there is a problem.
 AppliedOverride set_value(Json& root, const std::string& path, const Json& value);
 /// The same of a path=value text.
 AppliedOverride apply_override(Json& root, const std::string& text);

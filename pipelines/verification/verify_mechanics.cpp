@@ -45,7 +45,8 @@ Snapshot at_rest(const BeamModel& model, const std::vector<ProbePlace>& probes) 
   options.output_times = {0};
   SimulationObserver observer;
   observer.snapshot = [&](const Snapshot& frame) { found = frame; };
-  const SimulationReport report = simulate(noted(model, options), probes, at_problem_level(options), observer);
+  const SimulationReport report =
+      simulate(noted(model, options), probes, at_problem_level(options), observer);
   if (report.failure || !found) throw std::runtime_error("no rest was found");
   return *found;
 }

@@ -232,7 +232,8 @@ VerifyResult friction_at_a_kink() {
     std::vector<Snapshot> frames;
     SimulationObserver observer;
     observer.snapshot = [&](const Snapshot& frame) { frames.push_back(frame); };
-    const SimulationReport report = simulate(noted(builder.build(), options), {}, at_problem_level(options), observer);
+    const SimulationReport report =
+        simulate(noted(builder.build(), options), {}, at_problem_level(options), observer);
     if (report.status != SimulationStatus::done) throw std::runtime_error("no state at rest");
     const Kink kink(frames.at(0), rope.mass_per_length * g_of_earth, X);
     if (law == Friction::Law::capstan)
