@@ -48,7 +48,7 @@ Shape axis_shape() {
        {"polyline", array(point(), 2), "straight pieces through these points"},
        {"bend_radius",
         either(quantity(Dimension::length, positive()), array(quantity(Dimension::length, positive()), 1)),
-        "of arcs in the place of the corners, as a bent tube has: one for all, or one for each corner in turn; "
+        "of arcs instead of the corners, as a bent tube has: one for all, or one for each corner in turn; "
         "where the last point is the first there is one too; corners stay when omitted",
         false, "polyline"},
        {"through", array(point(), 2),
