@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "nurbs/knot_vector.h"
 #include "pipelines/study/variant.h"
 #include "tests/pipelines/case_text.h"
@@ -69,6 +71,21 @@ TEST(StudyCase, RefinedCurvesKeepTheirShapeAndHaveMoreControlPoints) {
   EXPECT_GT((bent.point(0.5) - refined.point(0.5)).norm(), 0.1);
   EXPECT_LE((bent.point(1) - refined.point(1)).norm(), 1e-14);
   EXPECT_LE((bent.point(2) - refined.point(2)).norm(), 1e-14);
+}
+
+TEST(StudyCase, AppendsToListsOfTheCaseAndVariesWhatHasBeenAppended) {
+  const std::string load =
+      R"json(, "set": ["loads[+]={\"beam\": \"rail\", \"at\": \"end\", \"force\": [0, 0, -1]}"])json";
+  const auto variable = [](const std::string& path) {
+    return R"json({"name": "push", "path": ")json" + path + R"json(", "range": [-3, -1]})json";
+  };
+  const ReadCase read = read_with(variable("loads[0].force[2]"), load);
+  ASSERT_TRUE(read.of_case.value) << read.messages;
+  const std::string text = read.of_case.value->variant(read.study.variables, {-2});
+  EXPECT_EQ(nlohmann::json::parse(text)["loads"][0]["force"][2], -2.0) << text;
+  const ReadCase none = read_with(variable("loads[+].force[2]"), load);
+  EXPECT_NE(none.messages.find("loads[+] is a new item; name a number that is there"), std::string::npos)
+      << none.messages;
 }
 
 TEST(StudyCase, SaysWhichChangesAreWrongAndLooksForMore) {
