@@ -112,6 +112,32 @@ TEST(Accuracy, HoldsARopeWithALoad) {
   expect_holds(run, "A.fx", -89301.84, 2000);
 }
 
+// The same rope as two beams with a hinge at the load, where nothing bends within an element.
+TEST(Accuracy, OfARopeInTwoBeamsIsAThousandTimesSmaller) {
+  const auto half = [](const std::string& name, double from, double to, double length) {
+    std::ostringstream beam;
+    beam.precision(17);
+    beam << R"({"name": ")" << name << R"(", "axis": {"polyline": [[)" << from << ", 0, 0], [" << to
+         << R"(, 0, 0]]}, "stress_free": "straight", "unstressed_length": )" << length << R"(,
+             "section": {"area": 0.0005484, "second_moment": 1e-12},
+             "material": {"density": 8572.803024050689, "youngs_modulus": 131e9}, "elements": {"count": 16}})";
+    return beam.str();
+  };
+  constexpr double part = 0.402519745467336, span = 304.8, length = 312.73;
+  const AccurateRun run(R"({"gravity": [0, 0, -9.81], "nurbeam": 1, "beams": [)" +
+                        half("b", 0, span * part, length * part) + ", " +
+                        half("c", span * part, span, length * (1 - part)) + R"(],
+  "joints": [{"type": "hinged", "beams": ["b", "c"]}],
+  "supports": [{"beam": "b", "at": "start", "type": "pinned", "name": "A"},
+               {"beam": "c", "at": "end", "type": "pinned", "name": "B"}],
+  "loads": [{"beam": "b", "at": "end", "force": [0, 0, -35586]}],
+  "analysis": {"type": "static"},
+  "output": {"report": false, "probes": [{"name": "p", "beam": "b", "at": "end"}]}})");
+  ASSERT_EQ(run.code, 0) << run.messages;
+  expect_holds(run, "p.z", -34.958758, 1e-5);
+  expect_holds(run, "A.fx", -89301.84, 1);
+}
+
 // Half the weight of the part between clamp and pin, at each.
 const std::string held_bar = R"({"nurbeam": 1, "gravity": [-1, 0, 0],
   "beams": [{"name": "b", "axis": {"polyline": [[0, 0, 0], [1, 0, 0]]}, "section": {"area": 1, "second_moment": 1e-4},
