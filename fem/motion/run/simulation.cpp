@@ -356,7 +356,7 @@ struct Simulation::Implementation {
   // accelerations of motions that are too fast for them.
   bool has_passed_ramp() const {
     constexpr double small = 0.25;
-    return run_.options.step && run_.last_step < small * *run_.options.step;
+    return run_.options.step && run_.last_step > 0 && run_.last_step < small * *run_.options.step;
   }
 
   double next_kink() const {
