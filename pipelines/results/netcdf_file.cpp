@@ -77,6 +77,10 @@ std::string reason_of(int status) {
   return is_full ? std::strerror(errno) : netcdf().strerror(status);
 }
 
+// Whether a call failed for want of memory. netCDF sets up libcurl for files of this machine too, which fails
+// for nothing else there.
+bool ran_short(int status) { return status == NC_ENOMEM || status == NC_ECURL || errno == ENOMEM; }
+
 // Whether there is memory for a call of netCDF.
 bool has_memory() {
   constexpr std::size_t for_a_call = 16 * 1024 * 1024;
@@ -141,6 +145,7 @@ const double NetcdfFile::fill = NC_FILL_DOUBLE;
 NetcdfFile::NetcdfFile(std::filesystem::path file, int id, int status) : file_(std::move(file)), id_(id) {
   if (status == NC_NOERR) return;
   id_ = -1;
+  if (ran_short(status)) throw std::bad_alloc();
   std::error_code none;
   const bool is_homeless = file_.has_parent_path() && !std::filesystem::exists(file_.parent_path(), none);
   throw std::runtime_error(file_.string() + ": " +
@@ -376,7 +381,7 @@ void NetcdfFile::close() {
 
 void NetcdfFile::check(int status, const std::string& what) const {
   if (status == NC_NOERR) return;
-  if (status == NC_ENOMEM || errno == ENOMEM) throw std::bad_alloc();
+  if (ran_short(status)) throw std::bad_alloc();
   throw std::runtime_error(file_.string() + ": " + what + ": " + reason_of(status));
 }
 

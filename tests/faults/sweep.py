@@ -191,9 +191,8 @@ def disturbed(scenario, good, kind, calls, number, sticky):
         found[scenario.name, kind, f"{crashes_in} crashes"] += 1
     elif code == 255 and asked_by:  # HDF5 calls exit(-1) in H5I_register
         found[scenario.name, kind, f"{asked_by} ends the process"] += 1
-    elif code == 2 and asked_by and ("NetCDF: HDF error" in said or "NetCDF: libcurl failure" in said):
-        # Neither HDF5 nor libcurl, which netCDF sets up, says that memory ran short: it is an error of the file to whoever
-        # asks.
+    elif code == 2 and asked_by and "NetCDF: HDF error" in said:
+        # HDF5 does not tell netCDF that memory ran short: it is an error of the file to whoever asks.
         found[scenario.name, kind, f"{asked_by} keeps the reason"] += 1
     elif code not in (0, 4):
         wrong(f"crashed: exit {code}" if code < 0 else f"exit {code}")
