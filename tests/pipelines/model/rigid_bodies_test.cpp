@@ -37,7 +37,8 @@ std::vector<Diagnostic> said(const std::string& text) {
   for (const Diagnostic& each : said(text)) {
     all += each.where + ": " + each.message + "\n";
     if (each.severity == Severity::error && each.where.ends_with(where) &&
-        std::ranges::all_of(words, [&](const std::string& word) { return each.message.find(word) != std::string::npos; }))
+        std::ranges::all_of(
+            words, [&](const std::string& word) { return each.message.find(word) != std::string::npos; }))
       return ::testing::AssertionSuccess();
   }
   return ::testing::AssertionFailure() << all;
