@@ -115,12 +115,12 @@ Table steps(const Recording& recording) {
   return rows;
 }
 
-// (number, angular frequency, factor, participation) of the modes.
+// (angular frequency, factor, participation, whirl) of the modes.
 py::object mode_rows(const Recording& recording) {
   if (!recording.modes) return py::none();
   py::list rows;
   for (const ModeRow& row : recording.modes->rows)
-    rows.append(py::make_tuple(row.omega, row.factor, Eigen::Vector3d(row.participation)));
+    rows.append(py::make_tuple(row.omega, row.factor, Eigen::Vector3d(row.participation), row.whirl));
   return py::make_tuple(recording.modes->buckling, recording.modes->mass, rows);
 }
 
@@ -128,10 +128,10 @@ py::object mode_rows(const Recording& recording) {
 std::optional<ModeTable> mode_table(const py::object& table) {
   if (table.is_none()) return std::nullopt;
   const auto [buckling, mass, rows] =
-      table.cast<std::tuple<bool, double, std::vector<std::tuple<double, double, Eigen::Vector3d>>>>();
+      table.cast<std::tuple<bool, double, std::vector<std::tuple<double, double, Eigen::Vector3d, int>>>>();
   ModeTable modes{.buckling = buckling, .mass = mass, .rows = {}};
-  for (const auto& [omega, factor, participation] : rows)
-    modes.rows.push_back({.omega = omega, .factor = factor, .participation = participation});
+  for (const auto& [omega, factor, participation, whirl] : rows)
+    modes.rows.push_back({.omega = omega, .factor = factor, .participation = participation, .whirl = whirl});
   return modes;
 }
 

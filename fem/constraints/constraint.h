@@ -35,13 +35,13 @@ using ConstraintList =
 template <int D>
 using BoundConstraint = std::conditional_t<
     D == 3,
-    ConstraintList<D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll,
-                   Turned<3, ClampedSection>, Turned<3, TurnedFork>, Turned<3, TurnedHinge>,
-                   BodyOnSection<FollowedNode>, BodyOnSection<FollowedPoint>, UnitAttitude, PointOnBody,
-                   AxesOnSection<GuideSection, 2>, AxesOnSection<GuideSection, 3>,
-                   AxesOnSection<FollowedNode, 2>, AxesOnSection<FollowedNode, 3>,
-                   AxesOnSection<FollowedPoint, 2>, AxesOnSection<FollowedPoint, 3>, SquareAxes<1>,
-                   SquareAxes<2>, SquareAxes<3>, BodyAtPlace, PointOnLine>,
+    ConstraintList<
+        D, ClampedRoll, ForkedRoll, JoinedSections, HeldAxis, PassedRoll, Turned<3, ClampedSection>,
+        Turned<3, TurnedFork>, Turned<3, TurnedHinge>, BodyOnSection<FollowedNode>,
+        BodyOnSection<FollowedPoint>, UnitAttitude, PointOnBody, AxesOnSection<GuideSection, 2>,
+        AxesOnSection<GuideSection, 3>, AxesOnSection<FollowedNode, 2>, AxesOnSection<FollowedNode, 3>,
+        AxesOnSection<FollowedPoint, 2>, AxesOnSection<FollowedPoint, 3>, SquareAxes<1>, SquareAxes<2>,
+        SquareAxes<3>, BodyAtPlace, PointOnLine, Turned<3, SquareAxes<2>>, Turned<3, SquareAxes<3>>>,
     ConstraintList<D>>;
 
 template <int D, class... C>

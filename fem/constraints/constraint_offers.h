@@ -27,6 +27,8 @@ struct ConstraintOffers {
   bool on_body = false;  ///< (on_body(body, state, y)) force on a body [N]
   /// (work(from, to, y_from, y_to), or work(at, from, ...)) work between two states on one mesh [J]
   bool work = false;
+  /// (drive(at, state, y)) moment about its axis by which a prescribed rotation turns on what is held [N m]
+  bool drive = false;
   bool body = false;  ///< (body()) first coordinate of a body that follows the constraint's other coordinates
   bool place = false;      ///< (place()) coordinate of the place that the constraint holds
   bool stop = false;       ///< (closed_stop()) number of the stop that the constraint keeps closed
@@ -45,6 +47,7 @@ NURBEAM_HOOK(action);
 NURBEAM_HOOK(body);
 NURBEAM_HOOK(place);
 NURBEAM_HOOK(closed_stop);
+NURBEAM_HOOK(drive);
 
 }  // namespace hooks
 
@@ -93,6 +96,11 @@ consteval bool keeps_constraint_offers() {
          keeps_word(o.action, names_action<C>, has_action) &&
          keeps_word(o.on_body, names_on_body<C>, has_on_body) &&
          keeps_word(o.work, names_work<C>, has_work) &&
+         keeps_word(
+             o.drive, names_drive<C>,
+             requires(const C& c, const MeshedBeams<D>& at, const State& x, const Rows& y) {
+               double(c.drive(at, x, y));
+             }) &&
          keeps_word(
              o.body, names_body<C>, requires(const C& c) { int(c.body()); }) &&
          keeps_word(

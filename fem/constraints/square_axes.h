@@ -27,11 +27,38 @@ class SquareAxes {
 
   ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state,
                            const ConstraintTerms<3>::Multipliers* y) const {
+    return terms_of(state, pairs_, y);
+  }
+  /// The couple on the first end for its multipliers [N m].
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return couple_of(state, pairs_, y);
+  }
+  /// Both with R b_k in place of b_k, for any matrix R: see Turned.
+  ConstraintTerms<3> terms(const MeshedBeams<3>&, const State& state, const Eigen::Matrix3d& R,
+                           const ConstraintTerms<3>::Multipliers* y) const {
+    return terms_of(state, turned(R), y);
+  }
+  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state, const Eigen::Matrix3d& R,
+                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return couple_of(state, turned(R), y);
+  }
+
+ private:
+  using Pairs = std::array<AxisPair, N>;
+
+  Pairs turned(const Eigen::Matrix3d& R) const {
+    Pairs pairs = pairs_;
+    for (auto& [a, b] : pairs) b = R * b;
+    return pairs;
+  }
+  ConstraintTerms<3> terms_of(const State& state, const Pairs& pairs,
+                              const ConstraintTerms<3>::Multipliers* y) const {
     ConstraintTerms<3> terms(rows, y != nullptr);
     const int first = static_cast<int>(ends_[0].dofs().size()),
               second = static_cast<int>(ends_[1].dofs().size());
     for (int k = 0; k < rows; ++k) {
-      const auto& [a, b] = pairs_[k];
+      const auto& [a, b] = pairs[k];
       const Eigen::Vector3d u = ends_[0].turned(state, a), v = ends_[1].turned(state, b);
       const Eigen::Matrix<double, 3, 4> by_first = ends_[0].gradient(state, a),
                                         by_second = ends_[1].gradient(state, b);
@@ -50,18 +77,16 @@ class SquareAxes {
     }
     return terms;
   }
-  /// The couple on the first end for its multipliers [N m].
-  Eigen::Vector3d couple(const MeshedBeams<3>&, const State& state,
-                         const Eigen::Ref<const Eigen::VectorXd>& y) const {
+  Eigen::Vector3d couple_of(const State& state, const Pairs& pairs,
+                            const Eigen::Ref<const Eigen::VectorXd>& y) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int k = 0; k < rows; ++k)
-      sum += y[k] * ends_[1].turned(state, pairs_[k][1]).cross(ends_[0].turned(state, pairs_[k][0]));
+      sum += y[k] * ends_[1].turned(state, pairs[k][1]).cross(ends_[0].turned(state, pairs[k][0]));
     return sum;
   }
 
- private:
   std::array<TurningAxes, 2> ends_;
-  std::array<AxisPair, N> pairs_;
+  Pairs pairs_;
   std::vector<int> dofs_;
 };
 

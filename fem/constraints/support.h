@@ -27,7 +27,7 @@ class HeldPosition {
         motion_(motion),
         turn_(turn) {}
 
-  static constexpr ConstraintOffers offers{.rates = true, .constant = true, .work = true};
+  static constexpr ConstraintOffers offers{.rates = true, .constant = true, .work = true, .drive = true};
   static constexpr int rows = D;
   const std::vector<int>& dofs() const { return dofs_; }
 
@@ -48,12 +48,17 @@ class HeldPosition {
 
   /// Work between two states on one mesh [J]: the mean force over the displacement, and the mean moment over
   /// the angle.
-  double work(const State& from, const State& to, const Eigen::Ref<const Eigen::VectorXd>& y_from,
+  double work(const MeshedBeams<D>& at, const State& from, const State& to,
+              const Eigen::Ref<const Eigen::VectorXd>& y_from,
               const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
-    double sum = turn_ ? (moment(from, y_from) + moment(to, y_to)) / 2 * (angle(to) - angle(from)) : 0;
+    double sum = turn_ ? (drive(at, from, y_from) + drive(at, to, y_to)) / 2 * (angle(to) - angle(from)) : 0;
     if (!motion_) return sum;
     const Eigen::Vector3d moved = motion_->at(to.t).value - motion_->at(from.t).value;
     return sum - (y_from + y_to).dot(moved.template head<D>()) / 2;
+  }
+  /// The moment about the axis that takes the place round [N m].
+  double drive(const MeshedBeams<D>&, const State& state, const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return turn_ ? -y.dot(turned(turn_->by(angle(state)).first)) : 0;
   }
 
   /// dg/dt [m/s] and d2g/dt2 [m/s^2] at fixed q.
@@ -71,10 +76,6 @@ class HeldPosition {
  private:
   Vector turned(const Eigen::Matrix3d& R) const { return R.topLeftCorner<D, D>() * arm_; }
   double angle(const State& state) const { return state.load * turn_->angle.at(state.t).angle; }
-  // The moment about the axis that takes the place round.
-  double moment(const State& state, const Eigen::Ref<const Eigen::VectorXd>& y) const {
-    return -y.dot(turned(turn_->by(angle(state)).first));
-  }
 
   PointOnBeam<D> point_;
   std::vector<int> dofs_;

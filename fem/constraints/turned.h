@@ -21,7 +21,7 @@ class Turned {
   /// `turn` must outlive the constraint.
   Turned(Rows held, const AxisTurn& turn) : held_(std::move(held)), turn_(&turn) {}
 
-  static constexpr ConstraintOffers offers{.rates = true, .couple = true, .work = true};
+  static constexpr ConstraintOffers offers{.rates = true, .couple = true, .work = true, .drive = true};
   static constexpr int rows = Rows::rows;
   const std::vector<int>& dofs() const { return held_.dofs(); }
 
@@ -50,17 +50,16 @@ class Turned {
               const Eigen::Ref<const Eigen::VectorXd>& y_from,
               const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
     const double way = to.load * turn_->angle.at(to.t).angle - from.load * turn_->angle.at(from.t).angle;
-    return (moment(at, from, y_from) + moment(at, to, y_to)) / 2 * way;
+    return (drive(at, from, y_from) + drive(at, to, y_to)) / 2 * way;
   }
-
- private:
-  // The moment about the axis that turns the support: y . dg/d(angle).
-  double moment(const MeshedBeams<D>& at, const State& state,
-                const Eigen::Ref<const Eigen::VectorXd>& y) const {
+  /// The moment about the axis that turns what is held [N m]: y . dg/d(angle).
+  double drive(const MeshedBeams<D>& at, const State& state,
+               const Eigen::Ref<const Eigen::VectorXd>& y) const {
     const Eigen::Matrix3d turning = turn_->by(state.load * turn_->angle.at(state.t).angle).first;
     return held_.terms(at, state, turning, nullptr).value.dot(y);
   }
 
+ private:
   Rows held_;
   const AxisTurn* turn_;
 };
@@ -235,7 +234,7 @@ class TurnedGuide {
         turn_(&*support.turn),
         motion_(support.motion ? &*support.motion : nullptr) {}
 
-  static constexpr ConstraintOffers offers{.rates = true, .force = true, .work = true};
+  static constexpr ConstraintOffers offers{.rates = true, .force = true, .work = true, .drive = true};
   static constexpr int rows = D - 1;
   const std::vector<int>& dofs() const { return dofs_; }
   /// The force on the beam for its multipliers [N].
@@ -283,12 +282,18 @@ class TurnedGuide {
               const Eigen::Ref<const Eigen::VectorXd>& y_from,
               const Eigen::Ref<const Eigen::VectorXd>& y_to) const {
     const double way = to.load * turn_->angle.at(to.t).angle - from.load * turn_->angle.at(from.t).angle;
-    double sum = (moment(at, from, y_from) + moment(at, to, y_to)) / 2 * way;
+    double sum = (drive(at, from, y_from) + drive(at, to, y_to)) / 2 * way;
     if (motion_) {
       const Eigen::Vector3d moved = motion_->at(to.t).value - motion_->at(from.t).value;
       sum += (force(from, y_from) + force(to, y_to)).dot(moved) / 2;
     }
     return sum;
+  }
+  /// The moment about the axis that turns what is held [N m].
+  double drive(const MeshedBeams<D>& at, const State& state,
+               const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    const Eigen::Matrix3d turning = turn_->by(state.load * turn_->angle.at(state.t).angle).first;
+    return y.dot(turned(turning) * from_axis(position(at, state).value, state));
   }
 
  private:
@@ -303,12 +308,6 @@ class TurnedGuide {
     if (!motion_) return r - about_;
     return r - about_ - state.load * motion_->at(state.t).value.template head<D>();
   }
-  double moment(const MeshedBeams<D>& at, const State& state,
-                const Eigen::Ref<const Eigen::VectorXd>& y) const {
-    const Eigen::Matrix3d turning = turn_->by(state.load * turn_->angle.at(state.t).angle).first;
-    return y.dot(turned(turning) * from_axis(position(at, state).value, state));
-  }
-
   PointOnBeam<D> point_;
   std::vector<int> dofs_;
   Eigen::Matrix<double, D - 1, D> across_;

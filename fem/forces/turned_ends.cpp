@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "fem/mesh/attitude.h"
 #include "fem/mesh/grip_position.h"
 
 namespace nurbeam {
@@ -51,7 +52,10 @@ TurnedEnds<D>::TurnedEnds(const RotationalConnector& connector, const MeshedBeam
     across_[i] << v, w;
     drawn_[i].setZero();
     if (end.is_point()) continue;
-    if (end.body >= 0) throw std::invalid_argument(what + " takes hold of places of beams and of space");
+    if (end.body >= 0) {
+      take_body(i, at, end.body, what);
+      continue;
+    }
     grip_position(at.structure, at.mesh, end, what);
     const Beam& beam = at.structure.beams[end.beam];
     if constexpr (D == 3)
@@ -69,9 +73,21 @@ TurnedEnds<D>::TurnedEnds(const RotationalConnector& connector, const MeshedBeam
   }
   for (const int i : {0, 1})
     if (connector.ends[i].beam >= 0 && of_sections_ != sections_[i].has_value())
-      throw std::invalid_argument(what + " joins a beam with torsion to one without it");
+      throw std::invalid_argument(what + " joins a beam without torsion to what has three axes");
   if (!of_sections_ && !counts_)
     throw std::invalid_argument(what + " needs an axis between beams without torsion");
+}
+
+// An end that is a rigid body or a place of one.
+template <int D>
+void TurnedEnds<D>::take_body(int end, const MeshedBeams<D>& at, int body, const std::string& what) {
+  const Body& of = at.structure.bodies[body];
+  const int first = at.mesh.attitudes[of.point_of ? of.point_of->body : body];
+  if (D == 2 || first < 0)
+    throw std::invalid_argument(what + " takes hold of \"" + of.name +
+                                "\", a point mass, which does not turn");
+  of_sections_ = bodies_[end] = true;
+  for (int k = 0; k < size_of_end; ++k) dofs_[end * size_of_end + k] = first + k;
 }
 
 template <int D>
@@ -118,8 +134,10 @@ EndAngle<D> TurnedEnds<D>::angle_of_directions(const Vector& x, bool with_hessia
 template <int D>
 template <class T>
 Eigen::Matrix<T, 3, 3> TurnedEnds<D>::axes(int end, const Eigen::Matrix<T, size, 1>& x) const {
-  if constexpr (D == 3)
+  if constexpr (D == 3) {
     if (sections_[end]) return sections_[end]->template triad<T>(x.template segment<4>(4 * end)).matrix();
+    if (bodies_[end]) return attitude::rotation<T>(x.template segment<4>(4 * end));
+  }
   return Eigen::Matrix3d::Identity().cast<T>();
 }
 
@@ -127,10 +145,14 @@ template <int D>
 template <class T>
 void TurnedEnds<D>::add_moment(int end, const Eigen::Matrix<T, size, 1>& x, const Vector3<T>& moment,
                                Eigen::Matrix<T, size, 1>& forces) const {
-  if constexpr (D == 3)
+  if constexpr (D == 3) {
     if (sections_[end])
       forces.template segment<4>(4 * end) +=
           sections_[end]->template force<T>(x.template segment<4>(4 * end), moment);
+    if (bodies_[end])
+      forces.template segment<4>(4 * end) +=
+          attitude::moment_force<T>(x.template segment<4>(4 * end), moment);
+  }
 }
 
 // S = w_a . v_b - v_a . w_b and C = v_a . v_b + w_a . w_b, as SectionTurn.

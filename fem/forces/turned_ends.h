@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fem/constraints/node_section.h"
@@ -27,8 +28,8 @@ struct EndAngle {
   }
 };
 
-/// The ends of a rotational connector in one mesh: space, sections of beams with torsion, or directions r_s
-/// of beams without it.
+/// The ends of a rotational connector in one mesh: space, rigid bodies and sections of beams with torsion, or
+/// directions r_s of beams without it.
 template <int D>
 class TurnedEnds {
  public:
@@ -37,7 +38,7 @@ class TurnedEnds {
   using Vector = typename EndAngle<D>::Vector;
   using Matrix = typename EndAngle<D>::Matrix;
 
-  /// Throws std::invalid_argument where an end is no place of a beam nor a point, or has no node.
+  /// Throws std::invalid_argument where an end is a point mass, or a place of a beam without a node.
   TurnedEnds(const RotationalConnector& connector, const MeshedBeams<D>& at, const Eigen::VectorXd& drawn);
 
   /// (size) Coordinates of both ends; -1 where there is none.
@@ -59,6 +60,7 @@ class TurnedEnds {
                       double by_v) const;
 
  private:
+  void take_body(int end, const MeshedBeams<D>& at, int body, const std::string& what);
   EndAngle<D> angle_of_directions(const Vector& x, bool with_hessian) const;
   EndAngle<D> angle_of_sections(const Vector& x, bool with_hessian) const;
   template <class T>
@@ -80,9 +82,10 @@ class TurnedEnds {
                                         const Eigen::Matrix<T, size, 1>& v, double stiffness,
                                         double damping) const;
 
-  bool counts_, of_sections_ = false;
+  bool counts_, of_sections_ = false;  // of sections and bodies, which have three axes
   std::vector<int> dofs_;
   std::array<std::optional<NodeSection>, 2> sections_;  // none in space
+  std::array<bool, 2> bodies_ = {false, false};         // their coordinates are attitudes
   // Across the axis, v and w as drawn: of sections in the own axes of each end, of directions in space.
   std::array<Eigen::Matrix<double, 3, 2>, 2> across_;
   std::array<Eigen::Vector2d, 2> drawn_;  // drawn directions in v and w, of unit length

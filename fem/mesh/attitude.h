@@ -1,8 +1,6 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "fem/element/cross_matrix.h"
-
 namespace nurbeam {
 
 /// The attitude of a rigid body: a quaternion p = (e0, e), whose length a constraint keeps at 1. All that is
@@ -58,6 +56,21 @@ inline Eigen::Matrix<double, 3, 4> gradient(const Eigen::Vector4d& p, const Eige
   Eigen::Matrix<double, 3, 4> J;
   for (int k = 0; k < 3; ++k) J.row(k) = 2 * (form(Eigen::Vector3d::Unit(k), a) * p).transpose();
   return J;
+}
+
+/// A(p)/|p|^2, the rotation of p of any length.
+template <class T>
+Eigen::Matrix<T, 3, 3> rotation(const Quaternion<T>& p) {
+  const T square = p.dot(p);
+  Eigen::Matrix<T, 3, 3> R;
+  for (int k = 0; k < 3; ++k) R.col(k) = turned<T>(p, Vector<T>(Eigen::Vector3d::Unit(k).cast<T>())) / square;
+  return R;
+}
+/// Forces on p from a moment along the axes of the model: its work is that over the rotation of p.
+template <class T>
+Quaternion<T> moment_force(const Quaternion<T>& p, const Vector<T>& moment) {
+  const T square = p.dot(p);
+  return from_moment<T>(p, turned_back<T>(p, moment)) * (2.0 / (square * square));
 }
 
 /// The rate of p for a spin along the axes of the model.

@@ -16,6 +16,7 @@ struct BeamModel : Structure {
   std::vector<Constraint> constraints;
   std::vector<Force> forces;
   std::vector<Measure> measures;
+  bool accelerations = false;  ///< records tell those of point masses and of probes too
 };
 
 }  // namespace nurbeam

@@ -8,6 +8,7 @@
 #include "fem/structure/displacement_table.h"
 #include "fem/structure/grip.h"
 #include "fem/structure/home_nodes.h"
+#include "fem/structure/turn.h"
 
 namespace nurbeam {
 
@@ -39,6 +40,10 @@ struct BodyJoint {
   std::optional<Eigen::Vector3d> slide = {};
   /// Displacement of a point in space `to`; State::load scales it as it scales loads.
   std::optional<DisplacementTable> motion = {};
+  /// Turns all that is held about an axis that goes with `to`, from the drawing on; State::load scales the
+  /// angle. With the pairs of hinge_pairs, or with no less than those of rigid_pairs. In space the place goes
+  /// round `about` too; elsewhere it lies on the axis.
+  std::optional<AxisTurn> turn = {};
 
   Grip place() const { return Grip::on_body(point); }
   std::string reaction_name(const Structure& structure) const;

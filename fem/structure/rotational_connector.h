@@ -9,14 +9,14 @@
 
 namespace nurbeam {
 
-/// A connector that resists the turn of its second end against its first: of two sections of beams with
-/// torsion, of two directions of beams without it, or of one of them against space.
+/// A connector that resists the turn of its second end against its first: of two rigid bodies or sections of
+/// beams with torsion, of two directions of beams without it, or of one of them against space.
 ///
 /// With an axis: phi is the angle by which the second end has turned about the axis since the drawing,
 /// counted over full turns. The moment M = k (phi - phi_0) + M_0 + c phi' about the axis acts on the first
 /// end, and -M on the second. The axis is fixed in the first end; of directions it is fixed in space. Without
 /// an axis: the moment is k theta + c w, with the vector theta of the smallest rotation between the ends,
-/// below 180 degrees, and their relative spin w; the ends are sections.
+/// below 180 degrees, and their relative spin w; the ends are bodies and sections.
 struct RotationalConnector {
   std::string name;
   std::array<Grip, 2> ends;                  ///< a place of a beam keeps its node; a point stands for space

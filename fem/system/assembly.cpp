@@ -258,6 +258,24 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> Assembly<D>::reaction(int i, const S
 }
 
 template <int D>
+double Assembly<D>::drive_moment(int i, const State& state) const {
+  const MeshedBeams<D> at = beams();
+  const Rows rows = constraint_rows_[i];
+  double moment = 0;
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    const int row = constraint_blocks_[c].row;
+    if (row < rows.first || row >= rows.first + rows.count) continue;
+    std::visit(
+        [&](const auto& constraint) {
+          if constexpr (offers_of<decltype(constraint)>.drive)
+            moment += constraint.drive(at, state, state.lambda.segment(row, constraint.rows));
+        },
+        constraints_[c]);
+  }
+  return moment;
+}
+
+template <int D>
 typename Assembly<D>::Vector Assembly<D>::force_on_body(int body, const State& state) const {
   const MeshedBeams<D> at = beams();
   Vector sum = Vector::Zero();

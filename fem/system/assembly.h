@@ -75,6 +75,8 @@ class Assembly final : public SecondOrderSystem {
   /// of two beams [N], [N m]; impulses where `multipliers` are impulses.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> reaction(int i, const State& state,
                                                        const Eigen::VectorXd& multipliers) const;
+  /// The moment about its axis by which constraint i of the model turns what it holds [N m].
+  double drive_moment(int i, const State& state) const;
   /// Force on a body, without weight, inertia and the forces of riders [N].
   Vector force_on_body(int body, const State& state) const;
   /// The sum of the energies of the elements' axes, with the potential of gravity. `of`: the elements that

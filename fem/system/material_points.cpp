@@ -6,8 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fem/element/inertia.h"
 #include "fem/element/quadrature.h"
 #include "fem/material/bending_layer.h"
+#include "fem/mesh/point_on_beam.h"
 #include "fem/mesh/widened.h"
 #include "fem/system/with_assembly.h"
 
@@ -283,6 +285,32 @@ MaterialPoint<3> material_point(const BeamSystem& system, const State& state, in
     return {p.position, p.tangent, p.curvature, none, none, 0};
   }
   return material_point_in(system, state, find_span(system.model(), system.mesh(), state.q, beam, s), s);
+}
+
+namespace {
+
+// d2/dt2 of the position at a fixed s in an element whose ends may move.
+template <int D>
+Eigen::Vector3d acceleration_in(const MeshElement<D>& e, const State& state, double s) {
+  using Layout = ElementLayout<D>;
+  const ElementState<D> x = gather(e, state.q, state.v, state.a);
+  const auto ends = [](const ElementVector<D>& of) {
+    return std::array<double, 2>{of[Layout::place(0)], of[Layout::place(1)]};
+  };
+  const CurvedPointShape<D> shape = point_shape<D>(e, state.q, s);
+  return widened<D>(SecondRate<D>(shape.value, shape.position(), shape.nodes, Layout::nodes(x.v),
+                                  Layout::nodes(x.a), ends(x.v), ends(x.a))
+                        .value);
+}
+
+}  // namespace
+
+Eigen::Vector3d material_acceleration(const BeamSystem& system, const State& state, int beam, double s) {
+  if (system.model().beams[beam].rigid) return Eigen::Vector3d::Zero();
+  return with_assembly(system, [&](const auto& assembly) {
+    const int span = find_span(system.model(), system.mesh(), state.q, beam, s);
+    return acceleration_in(assembly.elements()[static_cast<std::size_t>(span)], state, s);
+  });
 }
 
 SectionPoint section_point(const BeamSystem& system, const State& state, int beam, double s) {

@@ -14,6 +14,8 @@ namespace nurbeam {
 MaterialPoint<3> material_point(const BeamSystem& system, const State& state, int beam, double s);
 /// Position and velocity fields by the element in span `span`: at a node, from its side.
 MaterialPoint<3> material_point_in(const BeamSystem& system, const State& state, int span, double s);
+/// The acceleration of material point s of a beam [m/s^2]; 0 on a rigid guide.
+Eigen::Vector3d material_acceleration(const BeamSystem& system, const State& state, int beam, double s);
 
 /// The section at material point s of a beam with torsion, and its moments; at a node by the element after it
 /// (the last element at the end of an open beam). Throws std::invalid_argument for a beam without torsion.

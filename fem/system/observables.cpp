@@ -240,4 +240,9 @@ Reaction reaction(const BeamSystem& system, const State& state, const Eigen::Vec
       });
 }
 
+double drive_moment(const BeamSystem& system, const State& state, int constraint) {
+  return with_assembly(
+      system, [&](const auto& a) { return a.drive_moment(constraint, state); });
+}
+
 }  // namespace nurbeam

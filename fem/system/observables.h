@@ -78,5 +78,8 @@ struct Reaction {
 /// a projection of velocities) are impulses. Without torsion there is no couple along the beam.
 Reaction reaction(const BeamSystem& system, const State& state, const Eigen::VectorXd& multipliers,
                   int constraint);
+/// The moment about its axis by which constraint i of the model, whose rotation is prescribed, turns what it
+/// holds [N m].
+double drive_moment(const BeamSystem& system, const State& state, int constraint);
 
 }  // namespace nurbeam

@@ -324,6 +324,7 @@ CaseBeam read_beam(const Json& json, const std::string& path, const std::filesys
   CaseBeam beam;
   beam.path = path;
   beam_fields().read(json, path, beam, findings);
+  beam.has_orientation = has(json, "orientation");
   beam.axis = read_beam_axis(part(json, "axis"), child(path, "axis"), directory, findings);
   beam.section = read_section(part(json, "section"), directory, child(path, "section"), findings);
   beam.section.flexible_bends = text(part(json, "section"), "bends") == "flexible";

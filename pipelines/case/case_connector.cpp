@@ -82,14 +82,29 @@ CaseConnector read_connector(const Json& json, const std::string& path, Findings
 
 namespace {
 
-void check_ends(const CaseConnector& connector, Findings& findings) {
+const CaseBody* body_named(const std::string& name, const CaseFile& c) {
+  const auto found = std::ranges::find(c.bodies, name, &CaseBody::name);
+  return name.empty() || found == c.bodies.end() ? nullptr : &*found;
+}
+// A rigid body, or the one whose point a body is.
+bool turns(const CaseBody& body) { return body.inertia || !body.point_of.empty(); }
+const std::string& rigid_name(const CaseBody& body) {
+  return body.point_of.empty() ? body.name : body.point_of;
+}
+
+void check_ends(const CaseConnector& connector, const CaseFile& c, Findings& findings) {
   const auto& [from, to] = connector.ends;
   for (const CaseConnectorEnd& end : connector.ends)
-    if (connector.rotational && !end.body.empty())
+    if (const CaseBody* body = body_named(end.body, c); connector.rotational && body && !turns(*body))
       findings.error(end.path,
                      "is the body " + in_quotes(end.body) +
-                         ", a point, which does not turn; a rotational connector takes hold of a \"beam\" at "
-                         "a place, or of space, as a \"point\"");
+                         ", a point mass, which does not turn; give it an \"inertia\", or take hold of a "
+                         "\"beam\" at a place, or of space, as a \"point\"");
+  if (connector.rotational && !from.body.empty() && from.body != to.body)
+    if (const CaseBody* a = body_named(from.body, c), *b = body_named(to.body, c);
+        a && b && rigid_name(*a) == rigid_name(*b))
+      findings.error(connector.path, "joins the body " + in_quotes(rigid_name(*a)) +
+                                         " to itself, which does not turn against itself");
   if (from.point && to.point)
     findings.error(connector.path,
                    "joins two points, which both stay where they are; give a \"beam\" or a "
@@ -136,7 +151,7 @@ void check_body(const CaseBody& body, const CaseFile& c, Findings& findings) {
   const auto is_on_body = [&](const auto& carried) { return carried.on == body.name; };
   const bool carries_ring =
       std::ranges::any_of(c.eyelets, is_on_body) || std::ranges::any_of(c.reels, is_on_body);
-  if (body.inertia && joints.empty() && !body.position)
+  if (body.inertia && joints.empty() && !body.position && body.fixed_to.empty())
     findings.error(body.path, "nothing says where the rigid body " + in_quotes(body.name) +
                                   " is; give the \"position\" of its centre of mass as drawn");
   if (!body.inertia && joints.empty() && !connected && !carries_ring)
@@ -161,7 +176,7 @@ void check_body(const CaseBody& body, const CaseFile& c, Findings& findings) {
 
 void check_connectors(const CaseFile& c, Findings& findings) {
   for (const CaseConnector& connector : c.connectors) {
-    check_ends(connector, findings);
+    check_ends(connector, c, findings);
     check_length(connector, c.analysis, findings);
   }
   // A name that is none has been reported; whose body it was to hold is not known.

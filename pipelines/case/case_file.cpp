@@ -273,6 +273,7 @@ CaseFile read_case(const Json& json, const std::filesystem::path& file, Findings
     if (!factors.empty()) result.analysis.end_time = factors.back();
   }
   result.output = read_output(part(json, "output"), result.analysis, directory, findings);
+  add_body_probes(result, findings);
   if (!result.collectors.empty() && !result.output.histories_every)
     result.output.histories_at_steps = result.analysis.type == CaseAnalysis::Type::dynamic;
   return result;

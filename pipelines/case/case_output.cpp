@@ -26,6 +26,9 @@ Shape output_shape() {
        {"cad", cad, "deformed axes as CAD files"},
        {"probes", short_array(probe_fields().shape()), "points whose motion is stored"},
        {"clearances", short_array(clearance_fields().shape()), "heights of beams over the ground"},
+       {"accelerations", boolean(),
+        "accelerations and load factors of point masses and probes too, as rigid bodies have them; false when "
+        "omitted"},
        {"paraview", boolean(), "a series of ParaView files, frames.pvd; false when omitted"},
        {"report", boolean(), "report.html; true when omitted"}});
 }
@@ -67,6 +70,7 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, const std
   for_each_item(json, "probes", "output", [&](const Json& probe, const std::string& path) {
     CaseProbe& added = output.probes.emplace_back();
     added.path = path;
+    if (has(probe, "beam") && !probe.contains("at")) findings.error(path, "\"at\" is missing (where)");
     probe_fields().read(probe, path, added, findings);
   });
   for_each_item(json, "clearances", "output", [&](const Json& clearance, const std::string& path) {
@@ -74,6 +78,7 @@ CaseOutput read_output(const Json& json, const CaseAnalysis& analysis, const std
     added.path = path;
     clearance_fields(directory).read(clearance, path, added, findings);
   });
+  output.accelerations = flag(json, "accelerations");
   output.paraview = flag(json, "paraview");
   output.report = !has(json, "report") || flag(json, "report");
   return output;

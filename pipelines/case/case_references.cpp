@@ -138,10 +138,12 @@ void check_references(const Json& json, Findings& findings) {
     for (const char* key : {"eyelets", "reels", "collectors"})
       check_references(json, json, key, "", "beam", *beams, findings);
     for_each_item(json, "bodies", "", [&](const Json& body, const std::string& path) {
-      const std::string name = text(part(body, "fastened"), "beam");
-      if (!name.empty() && !is_one_of(name, *beams) && !is_beam_of_chain(name, json))
-        findings.error(child(path, "fastened.beam"),
-                       "there is no beam " + in_quotes(name) + known_names(name, *beams));
+      for (const char* key : {"fastened", "fixed_to"}) {
+        const std::string name = text(part(body, key), "beam");
+        if (!name.empty() && !is_one_of(name, *beams) && !is_beam_of_chain(name, json))
+          findings.error(child(child(path, key), "beam"),
+                         "there is no beam " + in_quotes(name) + known_names(name, *beams));
+      }
     });
     check_references(json, json, "stops", "", "beam", *beams, findings);
     for (const char* key : {"probes", "clearances"})
@@ -167,6 +169,7 @@ void check_references(const Json& json, Findings& findings) {
     check_ends(json, "body", *bodies, findings);
     for (const char* key : {"loads", "supports"})
       check_references(json, json, key, "", "body", *bodies, findings);
+    check_references(json, part(json, "output"), "probes", "output", "body", *bodies, findings);
     for_each_item(json, "stops", "", [&](const Json& stop, const std::string& path) {
       for_each_item(stop, "bodies", path, [&](const Json& name, const std::string& name_path) {
         if (!is_one_of(name, *bodies))

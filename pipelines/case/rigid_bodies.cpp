@@ -55,6 +55,37 @@ void read_axes(const Json& json, CaseBodyJoint& joint, Findings& findings) {
                              ", which are not square to each other as drawn, and of some length");
 }
 
+// What turns a support of a body.
+void read_rotation(const Json& json, CaseBodyJoint& joint, Findings& findings) {
+  if (!has(json, "rotation")) return;
+  CaseRotation& rotation = joint.rotation.emplace();
+  rotation.path = child(joint.path, "rotation");
+  rotation_fields().read(json["rotation"], rotation.path, rotation, findings);
+  if (rotation.axis.norm() == 0)
+    findings.error(child(rotation.path, "axis"), "is [0, 0, 0]; give the direction of the axis");
+  if (joint.type == Type::line)
+    findings.error(rotation.path, "is of \"clamped\" and \"pinned\" supports of bodies; use one of these");
+  if (joint.type == Type::ball && !rotation.about)
+    findings.error(rotation.path,
+                   "turns nothing: \"pinned\" holds a place alone; use \"clamped\", or give a point "
+                   "\"about\" which it goes round");
+  if (joint.type == Type::hinge && !rotation.about &&
+      joint.axis->stableNormalized().cross(rotation.axis.stableNormalized()).norm() < 1e-9)
+    findings.error(rotation.path,
+                   "turns nothing: the pin leaves a turn about its \"axis\" free; use \"clamped\", which "
+                   "turns the body");
+}
+
+// What drives a hinge.
+void read_drive(const Json& json, CaseBodyJoint& joint, Findings& findings) {
+  if (!has(json, "drive")) return;
+  CaseDrive& drive = joint.drive.emplace();
+  drive.path = child(joint.path, "drive");
+  drive_fields().read(json["drive"], drive.path, drive, findings);
+  if (joint.type != Type::hinge)
+    findings.error(drive.path, "is of a joint that turns about one axis; use \"hinged\" with an \"axis\"");
+}
+
 }  // namespace
 
 CaseBodyJoint read_body_support(const Json& json, const std::string& path, Findings& findings) {
@@ -74,9 +105,10 @@ CaseBodyJoint read_body_support(const Json& json, const std::string& path, Findi
                    "is \"fork\", which is for beams with torsion; of a body use \"pinned\", with "
                    "an \"axis\" as a pin, \"clamped\" or \"guided\"");
   if (joint.type == Type::line) need_axis(joint, "guided", "direction", findings);
-  for (const char* key : {"force", "mass", "slope", "interpolation", "rotation"})
+  for (const char* key : {"force", "mass", "slope", "interpolation"})
     if (has(json, key)) findings.error(child(path, key), "is of the support of a beam; leave it out");
   if (has(json, "motion")) take(json["motion"], joint.motion);
+  read_rotation(json, joint, findings);
   return joint;
 }
 
@@ -100,6 +132,7 @@ CaseBodyJoint read_body_joint(const Json& json, const std::string& path, Finding
                                      : Type::ball;
   if (joint.type == Type::cylinder || joint.type == Type::slide) need_axis(joint, type, "axis", findings);
   if (joint.type == Type::universal) read_axes(json, joint, findings);
+  read_drive(json, joint, findings);
   if (!joint.between[0].is_on_body())
     std::swap(joint.between[0], joint.between[1]), std::swap(joint.axes[0], joint.axes[1]);
   if (!joint.between[0].is_on_body())
@@ -135,6 +168,9 @@ void check_rigid_body(const CaseBody& body, Findings& findings) {
         path, "has the principal moments " + text_of(J[0], 4) + ", " + text_of(J[1], 4) + " and " +
                   text_of(J[2], 4) + " kg m^2, of which the greatest is " + text_of(J[2] - J[0] - J[1], 4) +
                   " more than the sum of the others; no body has that: the third can be at most that sum");
+  if (!body.fixed_to.empty() && !body.fastened_to.empty())
+    findings.error(child(body.path, "fixed_to"),
+                   "holds the body, and so does \"fastened\"; leave one of them out");
   if (body.roll_inertia > 0)
     findings.error(child(body.path, "roll_inertia"), "is of a point mass; a rigid body has its \"inertia\"");
   if (body.turned.axis.norm() == 0)
@@ -155,6 +191,25 @@ class BodyPoints {
         add(file.bodies[i].name, name, place);
   }
 
+  // A point of a body at the place of a beam that holds it.
+  std::string on_beam(const CaseBody& body) {
+    const std::string name = add(body.name, "fixed", Eigen::Vector3d::Zero());
+    CaseBody& point = file_.bodies.back();
+    point.path = child(find(point.point_of)->path, "fixed_to");
+    point.drawn_on = find(point.point_of)->fixed_to;
+    point.drawn_at = find(point.point_of)->fixed_at;
+    return name;
+  }
+  // The air drags the body at one of its points.
+  void drag_at_point(std::size_t i) {
+    const CaseBody body = file_.bodies[i];
+    const std::string path = child(body.path, "drag_at");
+    const std::string name =
+        body.drag_place ? at(body.name, *body.drag_place, path) : named(body.name, body.drag_point, path);
+    if (name == body.name) return;  // said
+    std::ranges::find(file_.bodies, name, &CaseBody::name)->drag_area = body.drag_area;
+    file_.bodies[i].drag_area = 0;
+  }
   // The body that a grip takes hold of, in place of the rigid body.
   void resolve(CaseGrip& grip) {
     if (!grip.is_on_body()) return;
@@ -215,10 +270,25 @@ class BodyPoints {
   Findings& findings_;
 };
 
+// Joins a body to a beam rigidly.
+void fix_to_beam(const CaseBody& body, BodyPoints& points, CaseFile& file) {
+  CaseBodyJoint joint{.type = Type::rigid, .path = child(body.path, "fixed_to"), .name = {}};
+  joint.says_type = false;
+  joint.between[0].path = joint.between[1].path = joint.path;
+  joint.between[0].body = points.on_beam(body);
+  joint.between[1].beam = body.fixed_to;
+  joint.between[1].at = body.fixed_at;
+  file.body_joints.push_back(std::move(joint));
+}
+
 }  // namespace
 
 void add_body_points(CaseFile& file, Findings& findings) {
   BodyPoints points(file, findings);
+  for (std::size_t i = 0; i < file.bodies.size(); ++i) {
+    if (!file.bodies[i].fixed_to.empty()) fix_to_beam(CaseBody(file.bodies[i]), points, file);
+    if (!file.bodies[i].drag_point.empty() || file.bodies[i].drag_place) points.drag_at_point(i);
+  }
   for (CaseSlidingJoint& joint : file.sliding_joints)
     if (!joint.point.empty()) joint.body = points.named(joint.body, joint.point, child(joint.path, "point"));
   for (CaseConnector& connector : file.connectors)
@@ -226,6 +296,59 @@ void add_body_points(CaseFile& file, Findings& findings) {
   for (CaseBodyJoint& joint : file.body_joints)
     for (CaseGrip& grip : joint.between) points.resolve(grip);
   for (CaseBodyLoad& load : file.body_loads) points.resolve(load.on);
+}
+
+namespace {
+
+const CaseBody* named_body(const CaseFile& file, const std::string& name) {
+  const auto found = std::ranges::find(file.bodies, name, &CaseBody::name);
+  return found == file.bodies.end() ? nullptr : &*found;
+}
+
+// Where a probe of a rigid body is drawn; nothing with errors.
+std::optional<Eigen::Vector3d> probed_place(const CaseProbe& probe, const CaseBody& body,
+                                            const CaseFile& file, Findings& findings) {
+  if (!body.point_of.empty()) return body.drawn;
+  if (!body.inertia) {
+    findings.error(child(probe.path, "body"),
+                   "is " + in_quotes(probe.body) +
+                       ", a point mass, whose columns stand under its own name; leave the probe out "
+                       "(\"output\": { \"accelerations\": true } adds what it feels)");
+    return {};
+  }
+  if (probe.body_place) return probe.body_place;
+  if (probe.body_point.empty()) {
+    if (!body.position)
+      findings.error(probe.path,
+                     "\"at\" is missing: the name of a point of the body, or a point as drawn; the "
+                     "columns of the centre of mass stand under " +
+                         in_quotes(probe.body));
+    return body.position;
+  }
+  if (const CaseBody* point = named_body(file, probe.body + "." + probe.body_point)) return point->drawn;
+  std::vector<std::string> known;
+  for (const auto& [name, place] : body.points) known.push_back(name);
+  findings.error(child(probe.path, "at"), "body " + in_quotes(probe.body) + " has no point " +
+                                              in_quotes(probe.body_point) +
+                                              known_names(probe.body_point, known));
+  return {};
+}
+
+}  // namespace
+
+void add_body_probes(CaseFile& file, Findings& findings) {
+  for (const CaseProbe& probe : file.output.probes) {
+    const CaseBody* body = named_body(file, probe.body);
+    if (probe.body.empty() || !body) continue;  // a name that is none is said elsewhere
+    const std::optional<Eigen::Vector3d> drawn = probed_place(probe, *body, file, findings);
+    if (!drawn) continue;
+    CaseBody point{.name = probe.name};
+    point.path = probe.path;
+    point.point_of = body->point_of.empty() ? body->name : body->point_of;
+    point.drawn = *drawn;
+    file.bodies.push_back(std::move(point));
+  }
+  std::erase_if(file.output.probes, [](const CaseProbe& probe) { return !probe.body.empty(); });
 }
 
 }  // namespace nurbeam

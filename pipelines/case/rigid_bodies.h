@@ -17,4 +17,7 @@ void check_rigid_body(const CaseBody& body, Findings& findings);
 /// of that.
 void add_body_points(CaseFile& file, Findings& findings);
 
+/// Makes points of probes of rigid bodies, under the names of the probes; the others stay.
+void add_body_probes(CaseFile& file, Findings& findings);
+
 }  // namespace nurbeam

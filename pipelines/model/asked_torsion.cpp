@@ -36,7 +36,7 @@ std::vector<Asking> asking(const ResolvedCase& resolved) {
       all.push_back({joint.beam, joint.path + ".follows", "a body follows the section where it is"});
   for (const CaseBodyJoint& joint : resolved.body_joints)
     if (!joint.between[1].beam.empty() && joint.type != CaseBodyJoint::Type::ball)
-      all.push_back({joint.between[1].beam, joint.path + ".type", "a body's attitude is held by a section"});
+      all.push_back({joint.between[1].beam, joint.type_path(), "a body's attitude is held by a section"});
   return all;
 }
 

@@ -8,6 +8,7 @@
 #include "fem/mesh/drawn_coordinates.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/model/prescribed_angle.h"
 
 namespace nurbeam {
 
@@ -58,6 +59,18 @@ bool follows_section(const ResolvedCase& resolved, const std::string& body) {
 
 }  // namespace
 
+void place_fixed_bodies(ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
+                        const BeamModel& model, Findings& findings) {
+  for (CaseBody& point : resolved.bodies) {
+    if (point.drawn_on.empty()) continue;
+    const int b = resolved.beam_index(point.drawn_on);
+    const double s = place_on(beams[b], point.drawn_at, point.path, findings);
+    point.drawn = frame.to_world(model.beams[b].curve.position(beams[b].material_coordinate(s)));
+    CaseBody& carrier = resolved.bodies[resolved.body_index(point.point_of)];
+    if (!carrier.position) carrier.position = point.drawn;
+  }
+}
+
 void add_bodies(const ResolvedCase& resolved, const ModelFrame& frame, BeamModel& model, Findings& findings) {
   for (const CaseBody& from : resolved.bodies) {
     Body body{
@@ -70,11 +83,9 @@ void add_bodies(const ResolvedCase& resolved, const ModelFrame& frame, BeamModel
     if (from.inertia) {
       body.rigid = rigid_body(from, frame);
       if (from.position) body.position = turned_position(from, *body.rigid, frame);
-      if (from.rotor.inertia > 0 && resolved.analysis.has_modes())
-        findings.error(
-            from.path + ".rotor",
-            "turns modes forwards and backwards, which they do not count yet; leave it out, or run a "
-            "motion");
+      if (from.rotor.inertia > 0 && resolved.analysis.type == CaseAnalysis::Type::buckling)
+        findings.error(from.path + ".rotor",
+                       "turns, and buckling is of what stands; leave it out, or find \"modes\"");
     }
     model.bodies.push_back(std::move(body));
     if (from.roll_inertia > 0 && !follows_section(resolved, from.name))
@@ -126,6 +137,8 @@ std::vector<AxisPair> pairs_of(const CaseBodyJoint& joint, const ModelFrame& fra
     case Type::line:
       return {};
     case Type::hinge:
+      if (joint.drive && joint.drive->motion) return rigid_pairs();
+      [[fallthrough]];
     case Type::cylinder:
       return hinge_pairs(frame.direction_to_local(*joint.axis));
     case Type::rigid:
@@ -161,19 +174,56 @@ void check_axes(const CaseBodyJoint& from, const BodyJoint& joint, const BeamMod
   if (joint.pairs.empty()) return;
   const Body& body = model.bodies[joint.turning_body(model)];
   if (!body.rigid)
-    findings.error(from.path + ".type", "holds the attitude of body " + in_quotes(body.name) +
-                                            ", a point mass, which has none; give it an \"inertia\", or use "
-                                            "\"hinged\" without an \"axis\"");
+    findings.error(from.type_path(), "holds the attitude of body " + in_quotes(body.name) +
+                                         ", a point mass, which has none; give it an \"inertia\", or use "
+                                         "\"hinged\" without an \"axis\"");
   if (joint.to.body >= 0 && !model.bodies[joint.to.body].rigid)
-    findings.error(from.path + ".type", "holds the attitude against body " +
-                                            in_quotes(model.bodies[joint.to.body].name) +
-                                            ", a point mass, which has none; give it an \"inertia\", or use "
-                                            "\"hinged\" without an \"axis\"");
+    findings.error(from.type_path(), "holds the attitude against body " +
+                                         in_quotes(model.bodies[joint.to.body].name) +
+                                         ", a point mass, which has none; give it an \"inertia\", or use "
+                                         "\"hinged\" without an \"axis\"");
   if (joint.to.beam >= 0 && !model.beams[joint.to.beam].has_torsion())
-    findings.error(from.path + ".type", "holds the attitude against beam " +
-                                            in_quotes(model.beams[joint.to.beam].name) +
-                                            ", which has no torsion and so no axes across it; give the beam "
-                                            "\"torsion\": true, or use \"hinged\" without an \"axis\"");
+    findings.error(from.type_path(), "holds the attitude against beam " +
+                                         in_quotes(model.beams[joint.to.beam].name) +
+                                         ", which has no torsion and so no axes across it; give the beam "
+                                         "\"torsion\": true, or use \"hinged\" without an \"axis\"");
+}
+
+// What turns a support, or drives a hinge at a place as drawn.
+std::optional<AxisTurn> turn_of_joint(const CaseBodyJoint& from, const Eigen::Vector3d& drawn,
+                                      const CaseAnalysis& analysis, const ModelFrame& frame,
+                                      Findings& findings) {
+  if (from.drive && from.drive->motion)
+    return AxisTurn{frame.moment_to_local(from.axis->stableNormalized()).normalized(), drawn,
+                    prescribed_angle(*from.drive->motion, analysis, findings)};
+  if (!from.rotation) return {};
+  const CaseRotation& rotation = *from.rotation;
+  return AxisTurn{frame.moment_to_local(rotation.axis.stableNormalized()).normalized(),
+                  rotation.about ? frame.to_local(*rotation.about) : drawn,
+                  prescribed_angle(rotation, analysis, findings)};
+}
+
+// The moment that drives a hinge turns with both bodies, about the axis that they share.
+void add_drive_moment(const CaseBodyJoint& from, const BodyJoint& joint, const ModelFrame& frame,
+                      BeamModel& model, Findings& findings) {
+  if (!from.drive || from.drive->moment.empty()) return;
+  if (joint.to.beam >= 0) {
+    findings.error(from.drive->path + ".moment",
+                   "acts on beam " + in_quotes(model.beams[joint.to.beam].name) +
+                       " too, which a drive does not; give a \"motion\", or the moment to both by \"loads\"");
+    return;
+  }
+  const Eigen::Vector3d axis = frame.moment_to_local(from.axis->stableNormalized()).normalized();
+  const auto add = [&](int body, double sign) {
+    model.forces.push_back(BodyLoad{.body = body,
+                                    .turns = body,
+                                    .is_moment = true,
+                                    .value = sign * axis,
+                                    .follower = true,
+                                    .time = from.drive->moment});
+  };
+  add(joint.turning_body(model), 1);
+  if (joint.to.body >= 0) add(joint.to.body, -1);
 }
 
 // What is joined is drawn together.
@@ -197,7 +247,8 @@ void add_body_joints(const ResolvedCase& resolved, const std::vector<DrawnBeam>&
     BodyJoint joint{.name = from.name,
                     .point = point,
                     .to = holder(from, resolved, beams, drawn, frame, model, findings),
-                    .pairs = pairs_of(from, frame)};
+                    .pairs = pairs_of(from, frame),
+                    .turn = turn_of_joint(from, drawn, resolved.analysis, frame, findings)};
     const bool slides = from.type == Type::cylinder || from.type == Type::slide || from.type == Type::line;
     if (slides) joint.slide = frame.direction_to_local(*from.axis).normalized();
     Eigen::Vector3d there = joint.to.is_point() ? joint.to.point : drawn_place(model, joint.to);
@@ -216,6 +267,7 @@ void add_body_joints(const ResolvedCase& resolved, const std::vector<DrawnBeam>&
         rows.emplace_back(time, frame.direction_to_local(displacement));
       joint.motion = DisplacementTable(rows);
     }
+    if (!findings.has_errors()) add_drive_moment(from, joint, frame, model, findings);
     model.constraints.push_back(std::move(joint));
   }
 }

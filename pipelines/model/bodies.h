@@ -6,6 +6,10 @@
 
 namespace nurbeam {
 
+/// Says where bodies and points are drawn that a case fixes to places of beams.
+void place_fixed_bodies(ResolvedCase& resolved, const std::vector<DrawnBeam>& beams, const ModelFrame& frame,
+                        const BeamModel& model, Findings& findings);
+
 /// Adds the bodies of a case to a model, in their order; those on beams, and points of rigid bodies, are
 /// placed later.
 void add_bodies(const ResolvedCase& resolved, const ModelFrame& frame, BeamModel& model, Findings& findings);

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "fem/mesh/drawn_coordinates.h"
 #include "nurbs/number_text.h"
 #include "pipelines/diagnostics/closest_name.h"
+#include "pipelines/model/prescribed_angle.h"
 
 namespace nurbeam {
 
@@ -56,6 +59,18 @@ class Velocities {
     add(b, -1);
     rows_.push_back(row);
     right_.push_back(along.dot(b.known - a.known));
+  }
+  // The first turns about an axis against the second, a rigid body or -1 for what stands, at a rate.
+  void turn(int a, int b, const Eigen::Vector3d& axis, double rate) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(3 * (count_ + spin_count_));
+    double known = 0;
+    for (const auto& [body, sign] : {std::pair{a, 1.0}, {b, -1.0}}) {
+      if (body < 0) continue;
+      if (const int w = spins_[body]; w >= 0) row.segment<3>(3 * (count_ + w)) += sign * axis.transpose();
+      known += sign * axis.dot(model_.bodies[body].rigid->spin);
+    }
+    rows_.push_back(row);
+    right_.push_back(rate - known);
   }
   // Gives the bodies the least motions that satisfy the equations as well as they can be: velocities alone
   // where that is enough.
@@ -108,11 +123,24 @@ Eigen::Vector3d arm_now(const BodyJoint& joint, const BeamModel& model) {
   return model.bodies[joint.to.body].rigid->attitude.conjugate() * away;
 }
 
+// What turns a joint gives a spin, and in space the place a velocity.
+void add_turn(const BodyJoint& joint, const BeamModel& model, Velocities& velocities, PlaceVelocity& there) {
+  const AngleMotion::Moment now = joint.turn->angle.at(0);
+  if (joint.to.is_point()) there.known += joint.turn->at(0, 1).first * (joint.to.point - joint.turn->about);
+  const bool on_rigid = joint.to.body >= 0 && model.bodies[joint.to.body].rigid;
+  const Eigen::Vector3d axis =
+      on_rigid ? Eigen::Vector3d(model.bodies[joint.to.body].rigid->attitude * joint.turn->axis)
+               : joint.turn->axis;
+  if (joint.pairs.size() == 3)
+    velocities.turn(joint.turning_body(model), on_rigid ? joint.to.body : -1, axis, now.rate);
+}
+
 void add_joint(const BodyJoint& joint, const BeamModel& model, Velocities& velocities) {
   if (joint.to.beam >= 0) return;  // a beam gives way
   const PlaceVelocity point = velocities.of(joint.point);
   PlaceVelocity there = velocities.of(joint.to, arm_now(joint, model));
   if (joint.motion) there.known += joint.motion->at(0).rate;
+  if (joint.turn) add_turn(joint, model, velocities, there);
   if (!joint.slide) {
     for (int k = 0; k < 3; ++k) velocities.equal(point, there, Eigen::Vector3d::Unit(k));
     return;
@@ -127,6 +155,22 @@ bool is_of_rigid(int body, const BeamModel& model) {
   return body >= 0 && (model.bodies[body].rigid || model.bodies[body].point_of);
 }
 
+// The spin of a body that follows a section, at a speed: what follows of that of the section.
+void add_following(const Rider& rider, double speed, const BeamModel& model, Velocities& velocities) {
+  const ReferenceCurve& curve = model.beam_of(rider).curve;
+  if (rider.follows == Follows::nothing || !curve.has_sections()) return;
+  const DrawnSection section = curve.section(rider.s);
+  const Eigen::Vector3d spin = speed * (section.curvature + section.twist * section.t);
+  std::vector<Eigen::Vector3d> axes;
+  if (rider.follows == Follows::section)
+    axes = {section.d1, section.d2, section.t};
+  else
+    for (const Eigen::Vector3d& v : across(rider.follows == Follows::axis ? rider.follow_axis : section.t))
+      axes.push_back(v);
+  for (const Eigen::Vector3d& axis : axes)
+    velocities.turn(model.turning_body(rider), -1, axis, spin.dot(axis));
+}
+
 // What a rider says of the velocity of its point: all of it where it has a speed.
 void add_rider(const Rider& rider, bool says_speed, const BeamModel& model, Velocities& velocities) {
   const Eigen::Vector3d t = model.beam_of(rider).curve.tangent(rider.s);
@@ -134,7 +178,9 @@ void add_rider(const Rider& rider, bool says_speed, const BeamModel& model, Velo
   const double speed = rider.motion ? rider.motion->at(0).speed : rider.speed;
   const PlaceVelocity along{.known = says_speed ? Eigen::Vector3d(speed * t) : Eigen::Vector3d::Zero()};
   for (const Eigen::Vector3d& v : across(t)) velocities.equal(body, along, v);
-  if (says_speed) velocities.equal(body, along, t.normalized());
+  if (!says_speed) return;
+  velocities.equal(body, along, t.normalized());
+  add_following(rider, speed, model, velocities);
 }
 
 void add_rod(const Connector& rod, const BeamModel& model, Velocities& velocities) {
@@ -145,8 +191,9 @@ void add_rod(const Connector& rod, const BeamModel& model, Velocities& velocitie
   velocities.equal(velocities.of(a, none), velocities.of(b, none), rod.direction.value_or(d.normalized()));
 }
 
-// Axes that a joint keeps square are square where the bodies start.
-void check_axes(const BodyJoint& joint, const std::string& path, const BeamModel& model, Findings& findings) {
+// Axes that a joint keeps square are square where the bodies start. `R`: of what turns the joint, then.
+void check_axes(const BodyJoint& joint, const std::string& path, const Eigen::Matrix3d& R,
+                const BeamModel& model, Findings& findings) {
   const auto attitude = [&](int body) {
     const auto& rigid = model.bodies[body].rigid;
     return rigid ? rigid->attitude : Eigen::Quaterniond::Identity();
@@ -155,19 +202,28 @@ void check_axes(const BodyJoint& joint, const std::string& path, const BeamModel
                            other =
                                joint.to.body >= 0 ? attitude(joint.to.body) : Eigen::Quaterniond::Identity();
   double open = 0;
-  for (const auto& [a, b] : joint.pairs) open = std::max(open, std::abs((own * a).dot(other * b)));
+  for (const auto& [a, b] : joint.pairs) open = std::max(open, std::abs((own * a).dot(other * (R * b))));
   constexpr double near = 1e-6;
-  if (open > near)
-    findings.error(path,
-                   "holds the attitude of body " + in_quotes(model.bodies[joint.turning_body(model)].name) +
-                       ", which \"turned\" takes " + text_of(std::asin(std::min(open, 1.0)) * 180 / M_PI, 4) +
-                       " degrees away from it; turn it about what the joint leaves free, or turn what it is "
-                       "joined to as well");
+  if (open <= near) return;
+  const std::string degrees = text_of(std::asin(std::min(open, 1.0)) * 180 / M_PI, 4) + " degrees";
+  if (joint.turn)
+    findings.error(
+        path, "turns body " + in_quotes(model.bodies[joint.turning_body(model)].name) + " to " +
+                  text_of(joint.turn->angle.at(0).angle * 180 / M_PI, 6) + " degrees at time 0, " + degrees +
+                  " away from where the body starts; let its \"table\" begin at the angle by which "
+                  "the body is \"turned\", 0 without that, or start with \"initial\": "
+                  "\"equilibrium\"");
+  else
+    findings.error(path, "holds the attitude of body " +
+                             in_quotes(model.bodies[joint.turning_body(model)].name) +
+                             ", which \"turned\" takes " + degrees +
+                             " away from it; turn it about what the joint leaves free, or turn what it is "
+                             "joined to as well");
 }
 
 // The place of a joint where the bodies start.
-void check_place(const BodyJoint& joint, const std::string& path, const BeamModel& model,
-                 Findings& findings) {
+void check_place(const BodyJoint& joint, const std::string& path, const Eigen::Matrix3d& R,
+                 const BeamModel& model, Findings& findings) {
   const Eigen::Vector3d here = drawn_place(model, Grip::on_body(joint.point));
   Eigen::Vector3d there = joint.to.is_point() ? joint.to.point : drawn_place(model, joint.to), along(0, 0, 0);
   if (joint.slide) along = *joint.slide;
@@ -176,6 +232,7 @@ void check_place(const BodyJoint& joint, const std::string& path, const BeamMode
       there += rigid->attitude * joint.arm;
       along = rigid->attitude * along;
     }
+  if (joint.turn && joint.to.is_point()) there = joint.turn->about + R * (there - joint.turn->about);
   Eigen::Vector3d apart = here - there;
   apart -= apart.dot(along) * along;
   constexpr double near = 1e-6;  // [m]
@@ -201,8 +258,11 @@ void start_bodies(const ResolvedCase& resolved, BeamModel& model, Findings& find
   for (const Constraint& constraint : model.constraints)
     if (const auto* joint = std::get_if<BodyJoint>(&constraint)) {
       const std::string& path = resolved.body_joints[number++].path;
-      check_axes(*joint, path, model, findings);
-      check_place(*joint, path, model, findings);
+      const Eigen::Matrix3d R = joint->turn && starts_as_drawn(resolved.analysis)
+                                    ? joint->turn->at(0, 1).R
+                                    : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+      check_axes(*joint, path, R, model, findings);
+      check_place(*joint, path, R, model, findings);
     }
   Velocities velocities(resolved, model);
   if (velocities.empty() || resolved.analysis.type != CaseAnalysis::Type::dynamic) return;

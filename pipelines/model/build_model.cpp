@@ -59,6 +59,11 @@ std::vector<BeamAxis> axes_of(const ResolvedCase& resolved, CadFiles& files, Fin
   return axes;
 }
 
+// Whether a guide says along which axes is told what bodies on it feel.
+bool tells_axes(const ResolvedCase& resolved, const CaseBeam& beam) {
+  return resolved.accelerations && beam.rigid && beam.has_orientation;
+}
+
 // That of the axes, gravity and loads.
 ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& axes) {
   std::vector<RationalCubic> segments;
@@ -110,8 +115,9 @@ ModelFrame frame_of(const ResolvedCase& resolved, const std::vector<BeamAxis>& a
   for (const CaseLaw& law : resolved.laws)
     if (law.spatial)
       for (int d = 0; d < 3; ++d) forces.emplace_back(Eigen::Vector3d::Unit(d));
-  const bool torsion = std::any_of(resolved.beams.begin(), resolved.beams.end(),
-                                   [](const CaseBeam& beam) { return beam.torsion; });
+  const bool torsion = std::any_of(resolved.beams.begin(), resolved.beams.end(), [&](const CaseBeam& beam) {
+    return beam.torsion || tells_axes(resolved, beam);
+  });
   return model_frame(segments, forces, moments, torsion || turns);
 }
 
@@ -179,9 +185,10 @@ bool turns_back(const CaseBeam& from, const ReferenceCurve& curve, const ModelFr
   return false;
 }
 
-// Whether a beam needs sections: for torsion, or a guide for bodies that follow them.
+// Whether a beam needs sections: for torsion, or a guide for what is felt on it, or for bodies that follow
+// them.
 bool needs_sections(const ResolvedCase& resolved, const CaseBeam& from) {
-  return from.torsion ||
+  return from.torsion || tells_axes(resolved, from) ||
          (from.rigid && std::ranges::any_of(
                             resolved.sliding_joints,
                             [&](const CaseSlidingJoint& joint) {
@@ -496,6 +503,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.model.dimension = built.frame.dimension;
   built.model.gravity = built.frame.direction_to_local(resolved.gravity);
   built.model.air = {resolved.air.density, built.frame.direction_to_local(resolved.air.wind)};
+  built.model.accelerations = case_file.output.accelerations;
   built.model.field = mass_field(resolved, built.frame, findings);
   const std::vector<DrawnBeam> beams = add_beams(resolved, axes, files, like, built, findings);
   if (findings.has_errors()) return {};
@@ -514,6 +522,7 @@ std::optional<BuiltModel> built_model(const CaseFile& case_file, const std::func
   built.model.constraints.insert(built.model.constraints.end(), joined.joints.begin(), joined.joints.end());
   built.loads.resize(case_file.loads.size() + case_file.body_loads.size());
   add_loads(resolved, beams, built.frame, built.model, built.loads, findings);
+  place_fixed_bodies(resolved, beams, built.frame, built.model, findings);
   add_bodies(resolved, built.frame, built.model, findings);
   add_sliding_joints(resolved, beams, joined, built.frame, built.model, built.motions, findings);
   if (!findings.has_errors()) place_body_points(resolved, built.frame, built.model, findings);

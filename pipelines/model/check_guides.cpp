@@ -20,6 +20,10 @@ void check_guides(const ResolvedCase& resolved, Findings& findings) {
   for (const CaseBeamJoint& joint : resolved.joints)
     for (const std::string& beam : joint.beams)
       refuse(beam, joint.path + ".beams", "a beam that it is to hold there takes a support instead");
+  for (const CaseBody& body : resolved.bodies)
+    if (!body.fixed_to.empty())
+      refuse(body.fixed_to, body.path + ".fixed_to.beam",
+             "it stands where it is drawn; hold the body by a \"clamped\" support");
   for (const CaseSlidingJoint& joint : resolved.sliding_joints) {
     if (joint.slope == SlopeRule::discontinuous)
       refuse(joint.beam, joint.path + ".slope", "it has no kink at a body; use \"continuous\"");

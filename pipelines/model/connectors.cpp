@@ -127,10 +127,16 @@ void check_turned_ends(const CaseConnector& from, const RotationalConnector& con
   if (a.is_point() && b.is_point())
     findings.error(
         from.path,
-        "joins space to space, as rigid guides and points do not turn; give an elastic \"beam\" as one end");
+        "joins space to space, as rigid guides and points do not turn; give an elastic \"beam\" or a rigid \"body\" as one end");
   if (a.beam >= 0 && a.beam == b.beam && a.s == b.s)
     findings.error(from.path, "joins a place of beam " + in_quotes(from.ends[0].beam) +
                                   " to itself, at s = " + text_of(a.s) + " m");
+  for (const int i : {0, 1})
+    if (const Grip& end = connector.ends[i];
+        end.beam >= 0 && connector.ends[1 - i].body >= 0 && !model.beams[end.beam].has_torsion())
+      findings.error(from.ends[i].path, "is beam " + in_quotes(from.ends[i].beam) +
+                                            ", which has no torsion and so no axes across it, and the other "
+                                            "end is a rigid body: give the beam \"torsion\": true");
   if (connector.axis || model.dimension == 2) {
     for (const int i : {0, 1}) {
       const Grip& end = connector.ends[i];

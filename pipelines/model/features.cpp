@@ -174,6 +174,7 @@ void add_constraint(const Constraint& constraint, const BeamModel& model, Named&
                           named.add("body that slides on a line", joint.slide.has_value());
                           named.add("body held by a beam", joint.to.beam >= 0);
                           named.add("moved support", joint.motion.has_value());
+                          named.add("support that turns", joint.turn.has_value());
                         }},
              constraint);
 }

@@ -21,6 +21,12 @@ std::string distinct(const std::string& name, const std::vector<std::string>& ot
   return free;
 }
 
+void to_world(const ModelFrame& f, std::optional<FeltRecord>& felt) {
+  if (!felt) return;
+  felt->acceleration = f.direction_to_world(felt->acceleration);
+  if (felt->in_space) felt->load_factor = f.direction_to_world(felt->load_factor);
+}
+
 }  // namespace
 
 void put_into_world(const ModelFrame& f, ElementRecord& e) {
@@ -39,6 +45,7 @@ Snapshot to_world(const ModelFrame& f, Snapshot frame) {
   for (ProbeRecord& p : frame.probes) {
     to_world(f, p);
     p.displacement = f.direction_to_world(p.displacement);
+    to_world(f, p.felt);
   }
   for (ReactionRecord& reaction : frame.reactions) {
     reaction.position = f.to_world(reaction.position);
@@ -51,6 +58,7 @@ Snapshot to_world(const ModelFrame& f, Snapshot frame) {
   }
   for (BodyRecord& body : frame.bodies) {
     to_world(f, body.point);
+    to_world(f, body.felt);
     body.joint_force = f.direction_to_world(body.joint_force);
   }
   for (BeamRecord& beam : frame.beams) {
@@ -71,8 +79,11 @@ SnapshotNames snapshot_names(const BuiltModel& built) {
   if (std::ranges::any_of(built.model.bodies, is_rigid))
     for (const Body& body : built.model.bodies) {
       names.rigid.push_back(is_rigid(body));
-      names.felt.push_back(is_rigid(body) || body.point_of);
+      names.felt.push_back(is_rigid(body) || body.point_of || built.model.accelerations);
     }
+  else if (built.model.accelerations)
+    names.felt.assign(built.model.bodies.size(), true);
+  names.felt_at_probes = built.model.accelerations;
   for (const Rider& rider : built.model.riders) {
     const bool is_driven = !rider.drive_force.empty() || (rider.reel && rider.motion);
     names.friction = names.friction || rider.friction || is_driven;

@@ -1,9 +1,10 @@
 #include "pipelines/model/model_summary.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "pipelines/model/inertia_box.h"
 
 namespace nurbeam {
 
@@ -125,16 +126,13 @@ Json to_json(const Support& support, const BuiltModel& built) {
 Json to_json(const Body& body, const ModelFrame& frame) {
   Json json = {{"name", body.name}, {"mass [kg]", body.mass}, {"roll inertia [kg m^2]", body.roll_inertia}};
   if (!body.rigid) return json;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body.rigid->inertia);
-  const Eigen::Vector3d J = principal.eigenvalues();
-  Eigen::Matrix3d axes = principal.eigenvectors();
-  if (axes.determinant() < 0) axes.col(2) *= -1;
+  const InertiaBox box = inertia_box(body);
   Json sides = Json::array(), directions = Json::array();
   for (int k = 0; k < 3; ++k) {
-    sides.push_back(std::sqrt(std::max(6 * (J.sum() - 2 * J[k]) / body.mass, 0.0)));
-    directions.push_back(to_json(Eigen::Vector3d(frame.direction_to_world(axes.col(k)))));
+    sides.push_back(box.sides[k]);
+    directions.push_back(to_json(Eigen::Vector3d(frame.direction_to_world(box.axes.col(k)))));
   }
-  json["principal inertia [kg m^2]"] = to_json(J);
+  json["principal inertia [kg m^2]"] = to_json(box.principal);
   json["box [m]"] = std::move(sides);
   json["box axes"] = std::move(directions);
   return json;

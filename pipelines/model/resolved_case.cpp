@@ -218,6 +218,7 @@ ResolvedCase resolve_case(const CaseFile& case_file, CadFiles& files, Findings& 
                         .probes = case_file.output.probes,
                         .clearances = case_file.output.clearances,
                         .laws = case_file.laws,
+                        .accelerations = case_file.output.accelerations,
                         .analysis = case_file.analysis};
   for (const CaseConnector& connector : case_file.connectors)
     (connector.rotational ? resolved.rotational_connectors : resolved.connectors).push_back(connector);

@@ -33,6 +33,7 @@ struct ResolvedCase {
   std::vector<CaseProbe> probes;
   std::vector<CaseClearance> clearances;
   std::vector<CaseLaw> laws = {};
+  bool accelerations = false;  ///< whether they are told
   CaseAnalysis analysis;
 
   /// The number of the beam of that name, which the case has.

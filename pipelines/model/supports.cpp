@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "nurbs/number_text.h"
+#include "pipelines/model/prescribed_angle.h"
 
 namespace nurbeam {
 
@@ -65,14 +66,10 @@ std::optional<AxisTurn> turn_in(const ResolvedCase& resolved, const CaseSupport&
   if (!support.rotation) return {};
   const CaseRotation& from = *support.rotation;
   const CaseAnalysis& analysis = resolved.analysis;
-  const bool moves = analysis.type == CaseAnalysis::Type::dynamic;  // else it grows with the load factor
-  if (from.speed && !moves)
-    findings.error(from.path + ".speed",
-                   "is of a motion, and nothing moves here; give a \"table\" of angles");
+  const bool moves = analysis.type == CaseAnalysis::Type::dynamic;
   const Eigen::Vector3d axis = frame.moment_to_local(from.axis.stableNormalized()).normalized();
-  const AngleMotion angle = from.speed ? AngleMotion::at_speed(*from.speed, from.ramp)
-                                       : AngleMotion(from.table, moves ? from.join : RowJoin::linear);
-  if (const double start = angle.at(0).angle; start != 0 && moves && !analysis.start_from_equilibrium)
+  const AngleMotion angle = prescribed_angle(from, analysis, findings);
+  if (const double start = angle.at(0).angle; start != 0 && starts_as_drawn(analysis))
     findings.error(from.path + ".table",
                    "is at " + text_of(start * 180 / std::numbers::pi) +
                        " degrees at time 0, but the run starts as drawn; begin with [0, 0], or start with "

@@ -37,15 +37,15 @@ FrameReader::FrameReader(const std::filesystem::path& file)
     node_counts_ = file_.integers("node_count", {0, 0}, {n, beams});
   }
   step_counts_ = file_.integers("solver_step_count", {0}, {n});
-  if (file_.has_variable("body_quaternion")) {
-    const std::size_t bodies = names_.bodies.size();
-    const Doubles turns = file_.doubles("body_quaternion", {0, 0, 0}, {1, bodies, 4}),
-                  felt = file_.doubles("body_acceleration", {0, 0, 0}, {1, bodies, 3});
-    for (std::size_t i = 0; i < bodies; ++i) {
-      names_.rigid.push_back(turns[4 * i] != NetcdfFile::fill);
-      names_.felt.push_back(felt[3 * i] != NetcdfFile::fill);
-    }
-  }
+  // Of what a variable has numbers in the first frame.
+  const auto known = [&](const char* name, std::size_t size, std::vector<bool>& of) {
+    if (!file_.has_variable(name)) return;
+    const Doubles values = file_.doubles(name, {0, 0, 0}, {1, names_.bodies.size(), size});
+    for (std::size_t i = 0; i < names_.bodies.size(); ++i) of.push_back(values[size * i] != NetcdfFile::fill);
+  };
+  known("body_quaternion", 4, names_.rigid);
+  known("body_acceleration", 3, names_.felt);
+  names_.felt_at_probes = file_.has_variable("probe_acceleration");
   check_counts(file);
 }
 
@@ -144,23 +144,37 @@ void FrameReader::read_points(std::size_t first, std::vector<Snapshot>& frames) 
       if (s[i * bodies + j] != NetcdfFile::fill) frames[i].bodies[j].s = s[i * bodies + j];
 }
 
-// What only rigid bodies and their points have.
+// What only rigid bodies have, and what is felt.
 void FrameReader::read_turns(std::size_t first, std::vector<Snapshot>& frames) const {
-  const std::size_t n = frames.size(), bodies = names_.rigid.size();
-  if (bodies == 0) return;
-  const auto values = [&](const char* name, std::size_t size) {
-    return file_.doubles(name, {first, 0, 0}, {n, bodies, size});
+  const std::size_t n = frames.size();
+  const auto values = [&](const char* name, std::size_t count, std::size_t size) {
+    return file_.doubles(name, {first, 0, 0}, {n, count, size});
   };
-  const Doubles turns = values("body_quaternion", 4), spins = values("body_angular_velocity", 3),
-                accelerations = values("body_acceleration", 3), factors = values("body_load_factor", 3);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < bodies; ++j) {
-      const std::size_t at = i * bodies + j;
-      const auto vector = [at](const Doubles& of) { return Eigen::Vector3d(of.data() + 3 * at); };
-      if (names_.rigid[j])
-        frames[i].bodies[j].turn = TurnRecord{Eigen::Vector4d(turns.data() + 4 * at), vector(spins)};
-      if (names_.felt[j]) frames[i].bodies[j].felt = FeltRecord{vector(accelerations), vector(factors)};
-    }
+  const auto vector = [](const Doubles& of, std::size_t at) {
+    return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(of.data() + 3 * at).unaryExpr(&unfilled));
+  };
+  if (const std::size_t bodies = names_.rigid.size(); bodies > 0) {
+    const Doubles turns = values("body_quaternion", bodies, 4),
+                  spins = values("body_angular_velocity", bodies, 3);
+    for (std::size_t at = 0; at < n * bodies; ++at)
+      if (names_.rigid[at % bodies])
+        frames[at / bodies].bodies[at % bodies].turn =
+            TurnRecord{Eigen::Vector4d(turns.data() + 4 * at), vector(spins, at)};
+  }
+  const auto read_felt = [&](const std::string& kind, std::size_t count, auto&& put) {
+    if (count == 0) return;
+    const Doubles accelerations = values((kind + "_acceleration").c_str(), count, 3),
+                  factors = values((kind + "_load_factor").c_str(), count, 3);
+    for (std::size_t at = 0; at < n * count; ++at)
+      put(frames[at / count], at % count, FeltRecord{vector(accelerations, at), vector(factors, at)});
+  };
+  read_felt(
+      "body", names_.felt.size(),
+      [&](Snapshot& f, std::size_t j, const FeltRecord& felt) {
+        if (names_.felt[j]) f.bodies[j].felt = felt;
+      });
+  read_felt("probe", names_.felt_at_probes ? names_.probes.size() : 0,
+            [](Snapshot& f, std::size_t j, const FeltRecord& felt) { f.probes[j].felt = felt; });
 }
 
 // Results of earlier versions have fewer of these.

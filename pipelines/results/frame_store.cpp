@@ -22,6 +22,8 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
       sections_(names.sections),
       springs_(names.springs),
       turns_(!names.rigid.empty()),
+      felt_(!names.felt.empty()),
+      felt_at_probes_(names.felt_at_probes),
       body_parts_(known_body_parts(names)),
       section_parts_(with_own_axes(section_parts, own_axes_parts, names.sections)),
       beam_extremes_(with_own_axes(beam_extremes, own_axes_extremes, names.sections)),
@@ -49,6 +51,7 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
     define_of_time("probe_displacement", {"probe", "xyz"}, "m", "displacement from the drawing");
     for (const SectionPart& part : section_parts_)
       define_of_time(std::string("probe_") + part.name, {"probe"}, part.unit, part.long_name);
+    if (felt_at_probes_) define_felt("probe", "of the probe");
   }
   if (beam_count_ > 0) define_beams(names.beams);
   define_reactions(names.reactions);
@@ -57,14 +60,19 @@ FrameStore::FrameStore(const std::filesystem::path& file, const SnapshotNames& n
   define_steps();
 }
 
-// What only rigid bodies have; missing of the others.
+// What only rigid bodies have, and what is felt; missing of the others.
 void FrameStore::define_turns() {
-  if (!turns_) return;
-  file_.define_dimension("wxyz", 4);
-  define_of_time("body_quaternion", {"body", "wxyz"}, "1", "turn of a rigid body from the drawing");
-  define_of_time("body_angular_velocity", {"body", "xyz"}, "rad s-1", "of a rigid body");
-  define_of_time("body_acceleration", {"body", "xyz"}, "m s-2", "of a rigid body or a place of one");
-  define_of_time("body_load_factor", {"body", "xyz"}, "1",
+  if (turns_) {
+    file_.define_dimension("wxyz", 4);
+    define_of_time("body_quaternion", {"body", "wxyz"}, "1", "turn of a rigid body from the drawing");
+    define_of_time("body_angular_velocity", {"body", "xyz"}, "rad s-1", "of a rigid body");
+  }
+  if (felt_) define_felt("body", "of a rigid body or a place of one");
+}
+
+void FrameStore::define_felt(const std::string& kind, const std::string& whose) {
+  define_of_time(kind + "_acceleration", {kind, "xyz"}, "m s-2", whose);
+  define_of_time(kind + "_load_factor", {kind, "xyz"}, "1",
                  "acceleration less that of gravity along own axes, over 9.80665 m/s^2");
 }
 
@@ -273,6 +281,14 @@ void FrameStore::write_probes(const PerFrame& each) {
     each.write(std::string("probe_") + part.name, {probe_count_}, [&](const Snapshot& f, Doubles& x) {
       for (const ProbeRecord& probe : f.probes) x.push_back(filled(probe.section.*part.value));
     });
+  if (!felt_at_probes_) return;
+  for (const auto& [name, part] : {std::pair{"probe_acceleration", &FeltRecord::acceleration},
+                                   {"probe_load_factor", &FeltRecord::load_factor}})
+    each.write(name, {probe_count_, 3}, [&, part = part](const Snapshot& f, Doubles& x) {
+      for (const ProbeRecord& probe : f.probes)
+        for (int k = 0; k < 3; ++k)
+          x.push_back(probe.felt ? filled((*probe.felt.*part)[k]) : NetcdfFile::fill);
+    });
 }
 
 void FrameStore::write_bodies(const PerFrame& each) {
@@ -298,34 +314,27 @@ void FrameStore::write_bodies(const PerFrame& each) {
   write("body_holding_force", {body_count_},
         [](Doubles& x, const BodyRecord& body) { x.push_back(body.holding_force); });
   for (const BodyPart& part : body_parts_)
-    write(std::string("body_") + part.name, {body_count_},
-          [&](Doubles& x, const BodyRecord& body) { x.push_back(filled(body.*part.value)); });
-  if (!turns_) return;
-  const auto append_or_fill = [](Doubles& x, bool is_there, const auto& get, int count) {
-    for (int k = 0; k < count; ++k) x.push_back(is_there ? get()[k] : NetcdfFile::fill);
+    write(
+        std::string("body_") + part.name, {body_count_},
+        [&](Doubles& x, const BodyRecord& body) { x.push_back(filled(body.*part.value)); });
+  const auto write_if = [&](bool asked, const char* name, std::size_t count, auto is_there, auto get) {
+    if (!asked) return;
+    write(
+        name, {body_count_, count},
+        [&](Doubles& x, const BodyRecord& body) {
+          for (std::size_t k = 0; k < count; ++k)
+            x.push_back(is_there(body) ? filled(get(body)[static_cast<Eigen::Index>(k)]) : NetcdfFile::fill);
+        });
   };
-  write(
-      "body_quaternion", {body_count_, 4},
-      [&](Doubles& x, const BodyRecord& body) {
-        append_or_fill(
-            x, body.turn.has_value(), [&] { return body.turn->attitude; }, 4);
-      });
-  write(
-      "body_angular_velocity", {body_count_, 3},
-      [&](Doubles& x, const BodyRecord& body) {
-        append_or_fill(
-            x, body.turn.has_value(), [&] { return body.turn->spin; }, 3);
-      });
-  write(
-      "body_acceleration", {body_count_, 3},
-      [&](Doubles& x, const BodyRecord& body) {
-        append_or_fill(
-            x, body.felt.has_value(), [&] { return body.felt->acceleration; }, 3);
-      });
-  write("body_load_factor", {body_count_, 3}, [&](Doubles& x, const BodyRecord& body) {
-    append_or_fill(
-        x, body.felt.has_value(), [&] { return body.felt->load_factor; }, 3);
-  });
+  const auto turns = [](const BodyRecord& body) { return body.turn.has_value(); };
+  const auto feels = [](const BodyRecord& body) { return body.felt.has_value(); };
+  write_if(
+      turns_, "body_quaternion", 4, turns, [](const BodyRecord& b) { return b.turn->attitude; });
+  write_if(
+      turns_, "body_angular_velocity", 3, turns, [](const BodyRecord& b) { return b.turn->spin; });
+  write_if(
+      felt_, "body_acceleration", 3, feels, [](const BodyRecord& b) { return b.felt->acceleration; });
+  write_if(felt_, "body_load_factor", 3, feels, [](const BodyRecord& b) { return b.felt->load_factor; });
 }
 
 void FrameStore::write_beams(const PerFrame& each) {

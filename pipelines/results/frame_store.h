@@ -52,6 +52,7 @@ class FrameStore {
                       const std::string& long_name, NetcdfFile::Type type = NetcdfFile::Type::real);
   void define_scalars();
   void define_turns();
+  void define_felt(const std::string& kind, const std::string& whose);
   void define_points(const std::string& kind, const std::vector<std::string>& names);
   void define_beams(const std::vector<std::string>& names);
   void define_reactions(const std::vector<std::string>& names);
@@ -74,7 +75,7 @@ class FrameStore {
   std::filesystem::path path_;
   NetcdfFile file_;
   std::size_t probe_count_, body_count_, beam_count_, reaction_count_, connector_count_, measure_count_;
-  bool sections_, springs_, turns_;
+  bool sections_, springs_, turns_, felt_, felt_at_probes_;
   std::span<const BodyPart> body_parts_;
   std::vector<SectionPart> section_parts_;
   std::vector<BeamExtreme> beam_extremes_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "pipelines/results/frame_layout.h"
 
@@ -158,16 +159,16 @@ const TurnRecord& turn_of(const BodyRecord& body) {
   static const TurnRecord no_turn{Eigen::Vector4d::Constant(none), Eigen::Vector3d::Constant(none)};
   return body.turn ? *body.turn : no_turn;
 }
-const FeltRecord& felt_of(const BodyRecord& body) {
+const FeltRecord& felt_of(const std::optional<FeltRecord>& felt) {
   constexpr double none = SectionRecord::no_number;
   static const FeltRecord nothing{Eigen::Vector3d::Constant(none), Eigen::Vector3d::Constant(none)};
-  return body.felt ? *body.felt : nothing;
+  return felt ? *felt : nothing;
 }
 
 void add_turns(const SnapshotNames& names, Columns& columns) {
-  for (std::size_t i = 0; i < names.rigid.size(); ++i) {
+  for (std::size_t i = 0; i < names.felt.size(); ++i) {
     columns.of("body", i, names.bodies[i]);
-    if (names.rigid[i]) {
+    if (i < names.rigid.size() && names.rigid[i]) {
       for (int k = 0; k < 4; ++k)
         columns.add(std::string("q") + "wxyz"[k], "1",
                     [i, k](const Snapshot& f) { return turn_of(f.bodies[i]).attitude[k]; });
@@ -179,8 +180,18 @@ void add_turns(const SnapshotNames& names, Columns& columns) {
     }
     if (!names.felt[i]) continue;
     columns.add_vector(
-        "a", "m/s^2", [i](const Snapshot& f) { return felt_of(f.bodies[i]).acceleration; });
-    columns.add_vector("g_", "1", [i](const Snapshot& f) { return felt_of(f.bodies[i]).load_factor; });
+        "a", "m/s^2", [i](const Snapshot& f) { return felt_of(f.bodies[i].felt).acceleration; });
+    columns.add_vector("g_", "1", [i](const Snapshot& f) { return felt_of(f.bodies[i].felt).load_factor; });
+  }
+}
+
+void add_felt_at_probes(const SnapshotNames& names, Columns& columns) {
+  if (!names.felt_at_probes) return;
+  for (std::size_t i = 0; i < names.probes.size(); ++i) {
+    columns.of("probe", i, names.probes[i]);
+    columns.add_vector(
+        "a", "m/s^2", [i](const Snapshot& f) { return felt_of(f.probes[i].felt).acceleration; });
+    columns.add_vector("g_", "1", [i](const Snapshot& f) { return felt_of(f.probes[i].felt).load_factor; });
   }
 }
 
@@ -257,6 +268,7 @@ std::vector<HistoryColumn> history_columns(const SnapshotNames& names) {
   add_measures(names, columns);
   add_collectors(names, columns);
   add_turns(names, columns);
+  add_felt_at_probes(names, columns);
   return all;
 }
 

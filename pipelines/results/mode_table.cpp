@@ -1,5 +1,6 @@
 #include "pipelines/results/mode_table.h"
 
+#include <algorithm>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -25,6 +26,11 @@ std::string heads(const std::string& name, const std::string& unit) {
 
 }  // namespace
 
+bool ModeTable::whirls() const {
+  return std::ranges::any_of(
+      rows, [](const ModeRow& row) { return row.whirl != 0; });
+}
+
 double ModeRow::frequency() const { return omega / (2 * std::numbers::pi); }
 
 void write_mode_table(const std::filesystem::path& file, const ModeTable& table) {
@@ -34,7 +40,8 @@ void write_mode_table(const std::filesystem::path& file, const ModeTable& table)
     out << "number,factor" << (has_errors ? ",factor.error" : "") << '\n';
   else
     out << "number,frequency [Hz],period [s]" << heads("effective_mass", "kg")
-        << heads("participation", "sqrt(kg)") << (has_errors ? ",frequency.error [Hz]" : "") << '\n';
+        << heads("participation", "sqrt(kg)") << (has_errors ? ",frequency.error [Hz]" : "")
+        << (table.whirls() ? ",whirl" : "") << '\n';
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const ModeRow& row = table.rows[i];
     out << i + 1 << ',';
@@ -45,6 +52,7 @@ void write_mode_table(const std::filesystem::path& file, const ModeTable& table)
           << (row.omega > 0 ? text_of(1 / row.frequency(), exact) : "") << columns(row.effective_mass())
           << columns(row.participation);
     if (has_errors) out << ',' << (row.error ? text_of(*row.error, exact) : "");
+    if (table.whirls()) out << ',' << row.whirl;
     out << '\n';
   }
   for (const Diagnostic& problem : write_at_once(file, out.str()))
@@ -61,6 +69,9 @@ std::string mode_text(const ModeTable& table, std::size_t i) {
   part = (part.array() < 0.001).select(0, part);
   return number +
          (row.omega > 0 ? text_of(row.frequency(), read_by_people) + " Hz" : "0 Hz, a rigid motion") +
+         (row.whirl > 0   ? ", forward whirl"
+          : row.whirl < 0 ? ", backward whirl"
+                          : "") +
          ", effective mass " + text_of(part.x(), rough) + ", " + text_of(part.y(), rough) + ", " +
          text_of(part.z(), rough) + " % in x, y, z";
 }

@@ -15,6 +15,7 @@ struct ModeRow {
   Eigen::Vector3d participation = Eigen::Vector3d::Zero();  ///< [sqrt(kg)]
 
   double round_off = 0;  ///< of omega^2 [1/s^2]
+  int whirl = 0;         ///< 1 forward, -1 backward, as what turns in the model; 0 neither
   std::optional<double> error =
       {};  ///< of mesh, where it was asked for: of the frequency [Hz], of the factor
   /// Half wave of bending in diameters of the beam, and the part by which the frequency is too high without
@@ -36,6 +37,9 @@ struct ModeTable {
   bool buckling = false;
   double mass = 0;  ///< of the whole model [kg]
   std::vector<ModeRow> rows;
+
+  /// Whether modes go round.
+  bool whirls() const;
 };
 
 /// modes.csv. Numbers have the digits that give them back exactly; the period of a rigid motion is empty.

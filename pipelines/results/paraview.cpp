@@ -1,5 +1,6 @@
 #include "pipelines/results/paraview.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cerrno>
 #include <charconv>
@@ -21,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int vertex_cell = 1, line_cell = 3, bezier_curve_cell = 75;  // VTK's numbers
+constexpr int vertex_cell = 1, line_cell = 3, hexahedron_cell = 12, bezier_curve_cell = 75;  // VTK's numbers
 
 // An XML file under its temporary name, and its own name once it is whole.
 template <class Write>
@@ -185,6 +186,23 @@ Grid body_grid(const std::vector<BodyRecord>& bodies) {
   return grid;
 }
 
+// Boxes about rigid bodies; VTK counts the corners of a hexahedron round its bottom, then round its top.
+Grid box_grid(const std::vector<BodyRecord>& bodies, const std::vector<Eigen::Matrix3d>& boxes) {
+  constexpr int corners[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                 {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  Grid grid{.cell_type = hexahedron_cell, .points_per_cell = 8};
+  grid.cell_data = {{"body", 1, {}}};
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].isZero(0) || !bodies.at(i).turn) continue;
+    const Eigen::Vector4d& q = bodies[i].turn->attitude;
+    const Eigen::Matrix3d edges = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized() * boxes[i];
+    for (const auto& [x, y, z] : corners)
+      append(grid.points, Eigen::Vector3d(bodies[i].point.position + edges * Eigen::Vector3d(x, y, z)));
+    grid.cell_data[0].values.push_back(static_cast<double>(i));
+  }
+  return grid;
+}
+
 Grid connector_grid(const std::vector<ConnectorRecord>& connectors) {
   Grid grid{.cell_type = line_cell, .points_per_cell = 2};
   grid.cell_data = {{"force", 1, {}}, {"length", 1, {}}, {"connector", 1, {}}};
@@ -214,12 +232,13 @@ Eigen::Vector4d rational_coefficients(const Eigen::Vector4d& samples, const Eige
 }
 
 ParaviewSeries::ParaviewSeries(fs::path directory, SnapshotNames names, std::vector<double> times,
-                               const std::string& name)
+                               const std::string& name, std::vector<Eigen::Matrix3d> boxes)
     : directory_(std::move(directory)),
       index_((name.empty() ? "frames" : name) + ".pvd"),
       prefix_(name.empty() ? "" : name + "_"),
       names_(std::move(names)),
-      times_(std::move(times)) {
+      times_(std::move(times)),
+      boxes_(std::move(boxes)) {
   std::error_code error;
   fs::create_directory(directory_ / "frames", error);
   if (error)
@@ -241,6 +260,8 @@ void ParaviewSeries::write(const Snapshot& frame) {
     write_grid(directory_ / frame_file("reactions", i), frame.time, reaction_grid(frame.reactions));
   if (!names_.connectors.empty())
     write_grid(directory_ / frame_file("connectors", i), frame.time, connector_grid(frame.connectors));
+  if (!boxes_.empty())
+    write_grid(directory_ / frame_file("boxes", i), frame.time, box_grid(frame.bodies, boxes_));
   times_.push_back(frame.time);
 }
 
@@ -258,6 +279,7 @@ void ParaviewSeries::write_index() const {
           if (!names_.bodies.empty()) entry(i, 1, "bodies");
           if (!names_.reactions.empty()) entry(i, 2, "reactions");
           if (!names_.connectors.empty()) entry(i, 3, "connectors");
+          if (!boxes_.empty()) entry(i, 4, "boxes");
         }
         out << "</Collection>\n</VTKFile>\n";
       });

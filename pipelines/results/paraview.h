@@ -13,13 +13,15 @@ namespace nurbeam {
 /// `RationalWeights`: the exact curve. Strain, curvature, axial force, bending moment and velocity are point
 /// data too, interpolated by the same rational functions through their samples. Cell data: beam, element and
 /// the reference arc lengths of the element's ends. Bodies are vertices with velocity, joint force and s (NaN
-/// after a body has left its beam), connectors lines with force and length.
+/// after a body has left its beam), connectors lines with force and length. Rigid bodies are boxes besides,
+/// frames/boxes_000000.vtu, ...
 class ParaviewSeries {
  public:
   /// `directory` exists. The first frames of an earlier run, with these times, are kept. A series of another
-  /// name has NAME.pvd and frames/NAME_beams_000000.vtu, ...
+  /// name has NAME.pvd and frames/NAME_beams_000000.vtu, ... `boxes`: per body InertiaBox::half_edges(), as
+  /// drawn, in the world's axes; zero for none; empty: of none.
   ParaviewSeries(std::filesystem::path directory, SnapshotNames names, std::vector<double> times = {},
-                 const std::string& name = {});
+                 const std::string& name = {}, std::vector<Eigen::Matrix3d> boxes = {});
   /// Writes one frame. This and the other throw std::runtime_error (file and reason).
   void write(const Snapshot& frame);
   /// Writes the .pvd for the frames so far.
@@ -33,6 +35,7 @@ class ParaviewSeries {
   std::string index_, prefix_;  // frames.pvd; NAME_
   SnapshotNames names_;
   std::vector<double> times_;
+  std::vector<Eigen::Matrix3d> boxes_;
 };
 
 /// The coefficients c (Bernstein, rational with `weights`) of the function that takes the values `samples` at

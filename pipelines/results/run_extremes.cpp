@@ -42,6 +42,18 @@ void RunExtremes::look_at(const Snapshot& frame, const SnapshotNames& names) {
     keep({name + ".speed", "m/s", counts * body.point.velocity.norm(), body.s, frame.time}, false);
     keep({name + ".joint_force", "N", counts * body.joint_force.norm(), body.s, frame.time}, false);
   }
+  const auto keep_felt = [&](const std::string& name, const FeltRecord& felt, double counts,
+                             std::optional<double> s) {
+    keep({name + ".acceleration", "m/s^2", counts * felt.acceleration.norm(), s, frame.time}, false);
+    for (int k = 0; k < 3; ++k)
+      keep({name + ".g_" + "xyz"[k], "1", counts * felt.load_factor[k], s, frame.time}, false);
+  };
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i)
+    if (const BodyRecord& body = frame.bodies[i]; body.felt)
+      keep_felt(names.bodies.at(i), *body.felt, body.adrift ? std::nan("") : 1, body.s);
+  for (std::size_t i = 0; i < frame.probes.size(); ++i)
+    if (const ProbeRecord& probe = frame.probes[i]; probe.felt)
+      keep_felt(names.probes.at(i), *probe.felt, 1, std::nullopt);
   for (std::size_t i = 0; i < frame.reactions.size(); ++i) {
     const ReactionRecord& reaction = frame.reactions[i];
     const std::string& name = names.reactions.at(i);

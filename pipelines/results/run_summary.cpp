@@ -118,6 +118,7 @@ Json to_json(const ModeTable& table) {
                       {"period [s]", row.omega > 0 ? Json(1 / row.frequency()) : Json()},
                       {"effective_mass [kg]", to_json(row.effective_mass())},
                       {"participation [sqrt(kg)]", to_json(row.participation)}});
+    if (table.whirls()) list.back()["whirl"] = row.whirl;
   }
   return list;
 }

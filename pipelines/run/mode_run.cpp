@@ -94,8 +94,8 @@ SimulationReport run_modes(const CaseFile& c, const BuiltModel& built,
       shapes.shape(shape);
       if (c.output.paraview)
         shapes.turn("mode_" + std::to_string(i + 1), oscillation(found.at, mode, probes));
-      table.rows.push_back(
-          {mode.omega, mode.factor, built.frame.direction_to_world(mode.participation), mode.round_off});
+      table.rows.push_back({mode.omega, mode.factor, built.frame.direction_to_world(mode.participation),
+                            mode.round_off, mode.whirl});
       if (mode.omega > 0) note_waves(bending_wave(found.at, mode), built.model, table.rows.back());
       if (mode.omega != 0 || mode.factor != 0)
         note_resolution(wave_resolution(found.at, mode), built.model, table.rows.back());

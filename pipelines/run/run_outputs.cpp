@@ -4,6 +4,7 @@
 
 #include "cad_import/files/atomic_file.h"
 #include "nurbs/number_text.h"
+#include "pipelines/model/inertia_box.h"
 #include "pipelines/run/history_rows.h"
 #include "pipelines/run/model_digest.h"
 
@@ -32,6 +33,16 @@ ResultsWriter results_writer(const CaseFile& c, const BuiltModel& built,
     rows = RowsBefore{time, is_frame || due.due(time - from->last_step, time)};
   }
   return ResultsWriter::resume(directory, snapshot_names(built), c.name, from->snapshots, rows);
+}
+
+// Boxes about rigid bodies, as drawn in the world; none where no body is rigid.
+std::vector<Eigen::Matrix3d> boxes_of(const BuiltModel& built) {
+  const std::vector<Body>& bodies = built.model.bodies;
+  if (std::ranges::none_of(bodies, [](const Body& body) { return body.rigid.has_value(); })) return {};
+  std::vector<Eigen::Matrix3d> boxes(bodies.size(), Eigen::Matrix3d::Zero());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].rigid) boxes[i] = built.frame.rotation.transpose() * inertia_box(bodies[i]).half_edges();
+  return boxes;
 }
 
 std::vector<std::string> texts_of(const std::vector<Diagnostic>& warnings) {
@@ -66,7 +77,7 @@ RunOutputs::RunOutputs(const CaseFile& case_file, const BuiltModel& built,
   if (from && !built.collectors.empty())
     contacts_.take_over(read_histories(temporary_name(directory / "histories.csv")));
   if (case_file.output.paraview)
-    paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from));
+    paraview_.emplace(directory_, snapshot_names(built), times_before(directory_, from), "", boxes_of(built));
   if (from) diagnostics_ = warnings_of(from->said_of_files);
   if (!from || from->snapshots == 0) return;
   const StoredFrames stored(directory);

@@ -129,6 +129,8 @@ std::vector<VerifyProblem> verification_problems() {
   append(all, eyelet_problems());
   append(all, reel_problems());
   append(all, body_problems());
+  append(all, drive_problems());
+  append(all, felt_problems());
   append(all, collector_problems());
   append(all, rope_motion_problems());
   append(all, turning_problems());

@@ -73,8 +73,10 @@ std::vector<VerifyProblem> train_problems();
 std::vector<VerifyProblem> energy_problems();
 std::vector<VerifyProblem> rope_problems();
 std::vector<VerifyProblem> eyelet_problems();
-/// Rigid bodies.
+/// Rigid bodies: alone and joined, driven, with what is felt on rails.
 std::vector<VerifyProblem> body_problems();
+std::vector<VerifyProblem> drive_problems();
+std::vector<VerifyProblem> felt_problems();
 /// Ropes on reels, and masses and tethers in frames that turn.
 std::vector<VerifyProblem> reel_problems();
 std::vector<VerifyProblem> collector_problems();

@@ -215,6 +215,92 @@ VerifyResult disc_on_a_shaft() {
   return result;
 }
 
+// ---- Modes of bodies ----
+
+std::string body_modes(const std::string& text, int count) {
+  return R"("nurbeam": 1, )" + text + ", " + modes(count);
+}
+
+/// A compound pendulum, and a gondola on two hangers, in its plane.
+VerifyResult small_swings() {
+  VerifyResult result;
+  add_frequencies(
+      result, "a pendulum on a pin",
+      body_modes(
+          R"("bodies": [{ "name": "pendulum", "mass": 12, "position": [0, 0, -0.7], "inertia": [1.1, 1.1, 1.1] }], "supports": [{ "body": "pendulum", "at": [0, 0, 0], "type": "pinned", "axis": [0, 1, 0] }])",
+          1),
+      {1 / 1.828661969}, 1e-8);
+  const double z = std::sqrt(4 - 0.36);
+  const auto rod = [&](const std::string& name, double x) {
+    return R"({ "name": ")" + name + R"(", "type": "rod", "from": { "body": "gondola", "at": [)" +
+           text_of(x) + ", 0, " + text_of(-z, 17) + R"(] }, "to": { "point": [)" + text_of(2 * x) +
+           ", 0, 0] } }";
+  };
+  const ModesReport found =
+      modes_of(body_modes(R"("bodies": [{ "name": "gondola", "mass": 100, "position": [0, 0, )" +
+                              text_of(-z - 0.5, 17) + R"(], "inertia": [14, 20, 16] }], "connectors": [)" +
+                              rod("left", -0.6) + ", " + rod("right", 0.6) + "]",
+                          4));
+  // The one that goes along x.
+  const auto along = std::ranges::max_element(
+      found.modes, {}, [](const Mode& mode) { return std::abs(mode.participation.x()); });
+  result.add("a gondola on two hangers, in its plane [Hz]", 1 / 1.775627628, "Lagrange's equations",
+             along->omega / (2 * pi), 1e-8);
+  return result;
+}
+
+/// A disc at the end of a shaft that spins at 300 rad/s.
+VerifyResult rotor() {
+  VerifyResult result;
+  const auto disc = [](const std::string& more) {
+    return shaft(0.6, 1e9, 2000, 1e6, 1.5, 12) +
+           R"("supports": [{ "beam": "bar", "at": "start", "type": "clamped" }], "bodies": [{ "name": "disc", "mass": 8, "position": [0.6, 0, 0], "inertia": [0.09, 0.05, 0.05])" +
+           more +
+           R"( }], "joints": [{ "between": [{ "body": "disc" }, { "beam": "bar", "at": "end" }], "type": "rigid" }], )" +
+           modes(4);
+  };
+  const std::string spins = R"(, "rotor": { "axis": [1, 0, 0], "inertia": 0.09, "speed": 300 })";
+  add_frequencies(result, "disc at 300 rad/s, backward and forward", disc(spins),
+                  {7.487497650, 10.617806667, 52.033355974, 129.313701257}, 1e-4);
+  add_frequencies(result, "disc at rest", disc(""), {9.083658580, 9.083658580, 80.632243978, 80.632243978},
+                  1e-4);
+  const ModesReport found = modes_of(disc(spins));
+  for (std::size_t i = 0; i < 4; ++i)
+    result.add("whirl of mode " + std::to_string(i + 1), i % 2 == 0 ? -1 : 1, "the gyroscopic moment",
+               found.modes.at(i).whirl, 0.5);
+  return result;
+}
+
+/// Wilberforce's pendulum about its drawing: a body under a light coil. Beside a body of 1e5 times the mass
+/// of that of the reference the coil is light.
+VerifyResult wilberforce() {
+  constexpr double radius = 0.03, rise = 0.012, wire = 0.002;
+  constexpr int turns = 8, count = 40;  // points a turn
+  std::string points;
+  for (int i = 0; i <= turns * count; ++i) {
+    const double a = 2 * pi * i / count;
+    points += (i == 0 ? "[" : ", [") + text_of(radius * std::cos(a), 17) + ", " +
+              text_of(radius * std::sin(a), 17) + ", " + text_of(-rise * i / count, 17) + "]";
+  }
+  const double I = pi * std::pow(wire, 4) / 4;
+  const std::string end = text_of(-rise * turns, 17);
+  std::vector<double> slower = {6.708576945,  7.031338226,  13.607180638,
+                                17.005288164, 26.078435243, 35.259140230};
+  for (double& frequency : slower) frequency /= std::sqrt(1e5);
+  VerifyResult result;
+  add_frequencies(
+      result, "a body on a coil",
+      R"("nurbeam": 1, "gravity": [0, 0, 0], "beams": [{ "name": "coil", "torsion": true, "axis": { "through": [)" +
+          points + R"(] }, "section": { "area": )" + text_of(pi * wire * wire, 17) +
+          R"(, "second_moment": )" + text_of(I, 17) + R"(, "torsion_constant": )" + text_of(2 * I, 17) +
+          R"( }, "material": { "youngs_modulus": 2.06e11, "shear_modulus": 7.9e10, "density": 7850 }, "elements": { "count": 320 } }], "supports": [{ "beam": "coil", "at": "start", "type": "clamped" }], "bodies": [{ "name": "bob", "mass": 2e4, "position": [0, 0, )" +
+          end + R"(], "inertia": [10, 20, 15] }], "joints": [{ "between": [{ "body": "bob", "at": [)" +
+          text_of(radius, 17) + ", 0, " + end +
+          R"(] }, { "beam": "coil", "at": "end" }], "type": "rigid" }], )" + modes(6),
+      slower, 1e-4);
+  return result;
+}
+
 // ---- Frames that turn ----
 
 /// An arm that spins, and sees its vibrations from its hub: flap out of the plane, lag in it.
@@ -254,6 +340,9 @@ std::vector<VerifyProblem> turning_problems() {
           {"bodies-T7", measures, sliding_clamp},
           {"bodies-B6", measures, rotational_spring},
           {"bodies-B3", measures + ", torsion", disc_on_a_shaft},
+          {"bodies-R4", "rigid bodies", small_swings},
+          {"bodies-B5", measures + ", torsion", rotor},
+          {"bodies-B7", measures + ", torsion", wilberforce},
           {"bodies-T5", measures, arm_that_spins},
           {"bodies-T6", measures, shaft_that_spins}};
 }

@@ -328,7 +328,7 @@ class Model:
     ) -> None:
         """Supports a position of a beam: "pinned", "guided" (free along `direction`), "clamped" or "fork", which with a
         `direction` slide along it; or a body or its `body.at("rim")`, where "pinned" is a ball, and a pin with `axis`.
-        `rotation` turns what it holds of a beam: {"axis": ..., "table": rows [time, degrees]} or {"axis": ...,
+        `rotation` turns what it holds: {"axis": ..., "table": rows [time, degrees]} or {"axis": ...,
         "speed": rad/s, "ramp": s}, about a point `about` where that is given. `motion` moves it from
         its reference position: rows [time, dx, dy, dz], or a smooth function motion(t) that returns the displacement (3,) [m], or
         this with its first two derivatives; else these are taken by differences over 0.1 ms, also just before time 0.
@@ -447,7 +447,8 @@ class Model:
     ) -> None:
         """Joins beams where an end of one meets the other, or near a point [m]: "hinged" or "rigid". With a rigid body
         among them, it joins two of bodies, `body.at("rim")`, {"beam": ..., "at": ...} and points in space: also
-        "universal" with `axes`, "cylinder" and "slide" along `axis`."""
+        "universal" with `axes`, "cylinder" and "slide" along `axis`. `drive` turns the first body about the axis of a
+        "hinged" joint: {"motion": {"speed": rad/s}}, {"motion": {"table": rows [time, degrees]}} or {"moment": N m}."""
         if any(isinstance(each, (Body, Mapping)) for each in beams):
             self.add("joints", between=[_grip(each) for each in beams], type=type, name=name, axis=axis, **keys)
         else:
@@ -479,9 +480,13 @@ class Model:
         )  # fmt: skip
         return Load(len(self.case["loads"]) - 1)
 
-    def add_probe(self, name: str, beam: Beam | str, at: Place, **keys: Any) -> None:
-        """A point of a beam whose motion and section forces are recorded under the name."""
-        probe = _json({"name": name, "beam": beam, "at": _place(at), **keys})
+    def add_probe(
+        self, name: str, beam: Beam | Body | Mapping[str, Any] | str, at: Place | None = None, **keys: Any
+    ) -> None:
+        """A point of a beam whose motion and section forces are recorded under the name, or a point of a rigid body,
+        `body.at("rim")`, with its acceleration and load factors."""
+        on = _grip(beam) if isinstance(beam, (Body, Mapping)) else {"beam": beam, "at": _place(at)}
+        probe = _json({"name": name, **on, **keys})
         _complain("output.probes", probe)
         output = self.case.setdefault("output", {})
         output.setdefault("probes", []).append(probe)

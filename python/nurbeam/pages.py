@@ -42,7 +42,7 @@ def _run_json(recording: _core.Recording, report: Mapping[str, Any], summary: st
         buckling, _, rows = table
         run["buckling" if buckling else "modes"] = [
             {"number": i, "factor": factor} if buckling else {"number": i, "frequency [Hz]": omega / (2 * math.pi)}
-            for i, (omega, factor, _) in enumerate(rows, 1)
+            for i, (omega, factor, *_) in enumerate(rows, 1)
         ]
     return run
 

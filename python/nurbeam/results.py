@@ -146,6 +146,8 @@ class Mode(NamedTuple):
     """(3,) along x, y and z [kg]"""
     shape: Snapshot
     """Moved by an amplitude that makes it visible."""
+    whirl: int = 0
+    """1 forward, -1 backward, as rotors of bodies or the frame turn; else 0"""
 
 
 class Modes(List[Mode]):
@@ -403,8 +405,9 @@ class Results(Sequence[Snapshot]):
                 factor if buckling else float("nan"),
                 participation**2,
                 self[i],
+                whirl,
             )
-            for i, (omega, factor, participation) in enumerate(rows, 1)
+            for i, (omega, factor, participation, whirl) in enumerate(rows, 1)
         ]
         known = self._accuracy.table() if self._accuracy is not None else []
         errors = {number.quantity: number.error for number in known}

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "fem/mesh/drawn_coordinates.h"
 #include "fem/system/material_points.h"
 #include "fem/system/observables.h"
 #include "fem/system/stress_resultants.h"
@@ -178,22 +177,12 @@ Extreme at_ring(const BeamSystem& system, const State& state, const AtRing& of) 
   return {value(), curve.wrapped(s)};
 }
 
-// The moment about the axis of a support that turns what it holds, and takes its place round.
-double moment_of_drive(const BeamSystem& system, const State& state, int constraint, const AxisTurn& turn) {
-  const Reaction reaction = nurbeam::reaction(system, state, state.lambda, constraint);
-  const Grip place =
-      std::visit([](const auto& c) { return c.place(); }, system.model().constraints[constraint]);
-  const Vector3d drawn = drawn_place(system.model(), place) - turn.about,
-                 arm = turn.by(state.load * turn.angle.at(state.t).angle).R * drawn;
-  return turn.axis.dot(reaction.couple + arm.cross(reaction.force));
-}
-
 double of_turn(const BeamSystem& system, const State& state, const OfTurn& of) {
   using enum OfTurn::Quantity;
   if (of.quantity == moment) return angle_and_moment(system, state, of.part).second;
   const AxisTurn* turn = of.of_support ? turn_of(system.model().constraints[of.part]) : nullptr;
   if (!turn) return angle_and_moment(system, state, of.part).first;
-  if (of.quantity == drive_moment) return moment_of_drive(system, state, of.part, *turn);
+  if (of.quantity == OfTurn::Quantity::drive_moment) return nurbeam::drive_moment(system, state, of.part);
   const AngleMotion::Moment now = turn->angle.at(state.t);
   return state.load * (of.quantity == angle ? now.angle : now.rate);
 }

@@ -7,6 +7,7 @@
 #include "fem/mesh/attitude.h"
 #include "fem/motion/record/adrift.h"
 #include "fem/motion/record/element_peaks.h"
+#include "fem/motion/record/felt.h"
 #include "fem/motion/record/measures.h"
 #include "fem/motion/record/sag.h"
 #include "fem/system/bending_layers.h"
@@ -163,10 +164,11 @@ bool is_stored(const BeamSystem& system, const State& state, const ProbePlace& p
          probe.s > mesh.spans[last].end(state.q) + little;
 }
 
-ProbeRecord empty_probe() {
+ProbeRecord empty_probe(bool felt) {
   ProbeRecord record;
   record.position = record.velocity = record.displacement =
       Eigen::Vector3d::Constant(SectionRecord::no_number);
+  if (felt) record.felt = FeltRecord{record.position, record.position};
   for (const auto value : {&SectionRecord::axial_force, &SectionRecord::bending_moment,
                            &SectionRecord::torque, &SectionRecord::shear_force, &SectionRecord::stress})
     record.section.*value = SectionRecord::no_number;
@@ -180,6 +182,7 @@ ProbeRecord record_place(const BeamSystem& system, const State& state, const Pro
   ProbeRecord record;
   record.position = p.r;
   record.velocity = p.velocity;
+  record.felt = felt_at(system, state, probe.beam, probe.s);
   if (system.model().beams[probe.beam].rigid) {
     record.section.curvature = p.rss.norm();
     record.section.stress = SectionRecord::no_number;
@@ -220,17 +223,6 @@ std::optional<TurnRecord> record_turn(const BeamSystem& system, const State& sta
   if (p < 0) return {};
   const Eigen::Vector4d attitude = state.q.segment<4>(p);
   return TurnRecord{attitude, attitude::spin(attitude, state.v.segment<4>(p))};
-}
-
-std::optional<FeltRecord> record_felt(const BeamSystem& system, const State& state, int body) {
-  const Body& of = system.model().bodies[body];
-  const int carrier = of.rigid ? body : of.point_of ? of.point_of->body : -1;
-  if (carrier < 0) return {};
-  constexpr double standard_gravity = 9.80665;  // [m/s^2]
-  const Eigen::Vector3d a = vector_at(system, state.a, system.mesh().bodies[body]);
-  const Eigen::Vector3d own = attitude::turned_back<double>(
-      state.q.segment<4>(system.mesh().attitudes[carrier]), a - system.model().gravity);
-  return FeltRecord{a, system.model().bodies[carrier].rigid->axes.transpose() * own / standard_gravity};
 }
 
 PointRecord record_body(const BeamSystem& system, const State& state, int body) {
@@ -280,13 +272,13 @@ Snapshot record_snapshot(const BeamSystem& system, const State& state, const std
   snapshot.time = state.t;
   if (contents.beams) snapshot.beams = record_beams(system, state, take);
   for (std::size_t i = 0; contents.probes && i < probes.size(); ++i)
-    snapshot.probes.push_back(is_stored(system, state, probes[i]) ? empty_probe()
+    snapshot.probes.push_back(is_stored(system, state, probes[i]) ? empty_probe(model.accelerations)
                               : contents.sections                 ? record_probe(system, state, probes[i])
                                                                   : record_place(system, state, probes[i]));
   for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
     snapshot.bodies.push_back({record_body(system, state, body), std::nullopt, Eigen::Vector3d::Zero()});
     snapshot.bodies.back().turn = record_turn(system, state, body);
-    snapshot.bodies.back().felt = record_felt(system, state, body);
+    snapshot.bodies.back().felt = felt_by(system, state, body);
   }
   for (int j = 0; j < static_cast<int>(model.riders.size()); ++j) {
     BodyRecord& body = snapshot.bodies[model.riders[j].body];

@@ -40,24 +40,28 @@ struct PointRecord {
   Eigen::Vector3d position, velocity;  ///< [m], [m/s]
 };
 
+/// What is felt at a point.
+struct FeltRecord {
+  Eigen::Vector3d acceleration;  ///< in a frame that turns against the frame [m/s^2]
+  /// Acceleration less that of gravity and of the frame over the standard one, 9.80665 m/s^2 [-]: of a rigid
+  /// body along its own axes; on a beam along its tangent, to the left and up, by its section or else by
+  /// gravity, NaN where these do not say; of another body along the axes of space.
+  Eigen::Vector3d load_factor;
+  bool in_space = false;  ///< `load_factor` is along the axes of space
+};
+
 /// A material point of a beam. Twist is against the start of the beam, here and in the elements of a
 /// BeamRecord.
 struct ProbeRecord : PointRecord {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< from the drawing [m]
   SectionRecord section;
+  std::optional<FeltRecord> felt = {};  ///< where BeamModel::accelerations asks for it
 };
 
 /// How a rigid body turns.
 struct TurnRecord {
   Eigen::Vector4d attitude;  ///< quaternion (w, x, y, z) of the turn from the drawing [-]
   Eigen::Vector3d spin;      ///< along the axes of the model [rad/s]
-};
-
-/// What is felt in a rigid body, or at a place of one.
-struct FeltRecord {
-  Eigen::Vector3d acceleration;  ///< [m/s^2]
-  /// Acceleration less that of gravity, along the body's own axes, over the standard one, 9.80665 m/s^2 [-].
-  Eigen::Vector3d load_factor;
 };
 
 struct BodyRecord {
@@ -71,7 +75,8 @@ struct BodyRecord {
          drive_force = SectionRecord::no_number;
   bool adrift = false;                  ///< it has left its beam, or hangs on a body that has (bodies_adrift)
   std::optional<TurnRecord> turn = {};  ///< of a rigid body
-  std::optional<FeltRecord> felt = {};  ///< of a rigid body and of a place of one
+  /// Of a rigid body and of a place of one; of point masses where BeamModel::accelerations asks for it.
+  std::optional<FeltRecord> felt = {};
 };
 
 /// Force and couple of a support on its beam, or of the second of two joined beams on the first.
@@ -135,8 +140,9 @@ struct SnapshotNames {
   std::vector<std::string> measures;  ///< with their quantity: "cable.sag_1", "ground.clearance"
   /// Whether beams have torsion, so that results include the sections' own axes.
   bool sections = false;
-  /// Per body: whether it is a rigid body, and whether it is one or a place of one; empty: none is.
+  /// Per body: whether it is a rigid body, and whether what it feels is told; empty: of none.
   std::vector<bool> rigid = {}, felt = {};
+  bool felt_at_probes = false;
   /// Whether bodies have friction; whether the model has elastic parts other than beams.
   bool friction = false, springs = false;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/mesh/attitude.h"
 #include "fem/motion/rest/buckling.h"
 #include "fem/motion/rest/free_lengths.h"
 #include "fem/system/initial_state.h"
@@ -68,10 +69,16 @@ Vector translation(const BeamSystem& system, int axis) {
   return e;
 }
 
+/// Vibrations with gyroscopic forces.
+struct Whirling {
+  SquaredFrequencies found;  ///< shapes at their widest moment
+  Eigen::MatrixXd quarter;   ///< shapes a quarter of a period later
+};
+
 /// Vibrations with gyroscopic forces, M x'' + G x' + K x = 0 with G' = -G, in the space of the lowest
 /// vibrations without them, where M = 1 and K = L^2 is diagonal. With y = (L x, x') it is y' = S y with the
-/// skew matrix S = [0, L; -L, -G], of eigenvalues i omega. A shape is that at its widest moment.
-SquaredFrequencies with_gyroscopes(const SquaredFrequencies& still, const Matrix& gyroscopic, int count) {
+/// skew matrix S = [0, L; -L, -G], of eigenvalues i omega.
+Whirling with_gyroscopes(const SquaredFrequencies& still, const Matrix& gyroscopic, int count) {
   const Eigen::Index n = still.values.size();
   const Eigen::MatrixXd G = still.shapes.transpose() * (gyroscopic * still.shapes);
   const Eigen::MatrixXd L = still.values.cwiseMax(0).cwiseSqrt().asDiagonal();
@@ -81,20 +88,81 @@ SquaredFrequencies with_gyroscopes(const SquaredFrequencies& still, const Matrix
   H.bottomLeftCorner(n, n) = i * L;
   H.bottomRightCorner(n, n) = i * (G - G.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(H);
-  SquaredFrequencies found{.values = Vector(count),
-                           .shapes = Eigen::MatrixXd(still.shapes.rows(), count),
-                           .resolution = still.resolution};
+  Whirling whirling{{.values = Vector(count),
+                     .shapes = Eigen::MatrixXd(still.shapes.rows(), count),
+                     .resolution = still.resolution},
+                    Eigen::MatrixXd(still.shapes.rows(), count)};
   for (int k = 0; k < count; ++k) {
     const double omega = solver.eigenvalues()[n + k];  // those below 0 are as many
-    found.values[k] = omega * omega;
+    whirling.found.values[k] = omega * omega;
     // x' is i omega x; the phase in which x is widest.
     Eigen::VectorXcd x = solver.eigenvectors().col(n + k).tail(n);
     const std::complex<double> square = x.cwiseProduct(x).sum();
     if (std::abs(square) > 1e-12) x *= std::exp(-i * std::arg(square) / 2.0);
-    const Vector real = x.real();
-    found.shapes.col(k) = still.shapes * real.normalized();
+    const Vector real = x.real(), imaginary = x.imag();
+    const double size = real.norm();
+    whirling.found.shapes.col(k) = still.shapes * (real / size);
+    whirling.quarter.col(k) = still.shapes * (-imaginary / size);
   }
-  return found;
+  return whirling;
+}
+
+/// What vectors sweep about axes from one moment of a mode to that a quarter of a period later.
+struct Swept {
+  double area = 0, most = 0;  // with the sign of the axes; twice what it can be
+
+  void add(const Eigen::Vector3d& axis, const Eigen::Vector3d& now, const Eigen::Vector3d& then) {
+    area += axis.dot(now.cross(then));
+    most += now.squaredNorm() + then.squaredNorm();
+  }
+  int sense() const {
+    constexpr double nothing = 1e-6;
+    return std::abs(area) <= nothing * most ? 0 : area > 0 ? 1 : -1;
+  }
+};
+
+// Of the turns of bodies about the axes of their rotors.
+Swept swept_by_rotors(const MeshedState& at, const Vector& now, const Vector& then) {
+  const BeamModel& model = at.system->model();
+  Swept swept;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const int first = at.system->mesh().attitudes[i];
+    if (first < 0 || model.bodies[i].rigid->rotor.isZero(0)) continue;
+    const Eigen::Vector4d p = at.state.q.segment<4>(first);
+    const Eigen::Vector3d axis = attitude::turned<double>(p, model.bodies[i].rigid->rotor).normalized();
+    swept.add(axis, attitude::spin(p, now.segment<4>(first)), attitude::spin(p, then.segment<4>(first)));
+  }
+  return swept;
+}
+
+// Of the ways of nodes and bodies about the axis of the frame.
+Swept swept_in_frame(const MeshedState& at, const Vector& now, const Vector& then) {
+  const BeamSystem& system = *at.system;
+  const Eigen::Vector3d axis = system.model().field->rate.normalized();
+  Swept swept;
+  const auto add = [&](int r) {
+    const auto way = [&](const Vector& x) {
+      Eigen::Vector3d d = Eigen::Vector3d::Zero();
+      d.head(system.dimension()) = x.segment(r, system.dimension());
+      return d;
+    };
+    swept.add(axis, way(now), way(then));
+  };
+  for (const auto& nodes : system.mesh().nodes)
+    for (const MeshNode& node : nodes) add(node.r);
+  for (const int r : system.mesh().bodies) add(r);
+  return swept;
+}
+
+bool has_rotor(const Body& body) { return body.rigid && !body.rigid->rotor.isZero(0); }
+bool turns(const MassField& field) { return !field.rate.isZero(0); }
+
+// Forwards or backwards: of the rotors where there are some, else of the frame.
+int whirl(const MeshedState& at, const Vector& now, const Vector& then) {
+  const BeamModel& model = at.system->model();
+  return (std::ranges::any_of(model.bodies, has_rotor) ? swept_by_rotors(at, now, then)
+                                                       : swept_in_frame(at, now, then))
+      .sense();
 }
 
 std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::function<void()>& between,
@@ -104,15 +172,20 @@ std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::
   const Matrix mass_kkt = tangent_matrix(system, report.at.state, {.mass = 1});
   const Matrix K = coordinate_block(kkt, n), M = coordinate_block(mass_kkt, n);
   const int most = std::max(0, n - system.constraint_count());
-  const bool turns = system.model().field && !system.model().field->rate.isZero(0);
-  constexpr int more = 30;  // of a frame that turns: the space in which Coriolis forces are
+  const BeamModel& model = system.model();
+  const bool gyroscopic =
+      (model.field && turns(*model.field)) || std::ranges::any_of(model.bodies, has_rotor);
+  constexpr int more = 30;  // the space in which gyroscopic forces are
   const int wanted = std::min(count, most);
   auto found =
-      lowest_frequencies(kkt, mass_kkt, n, turns ? std::min(4 * count + more, most) : wanted, between);
+      lowest_frequencies(kkt, mass_kkt, n, gyroscopic ? std::min(4 * count + more, most) : wanted, between);
   if (!found) return failure_of(Failure::Kind::eigenvalues);
-  if (turns)
-    found = with_gyroscopes(
+  std::optional<Whirling> whirling;
+  if (gyroscopic) {
+    whirling = with_gyroscopes(
         *found, coordinate_block(tangent_matrix(system, report.at.state, {.damping = 1}), n), wanted);
+    found = whirling->found;
+  }
   std::vector<double> round_offs;
   for (Eigen::Index i = 0; i < found->values.size(); ++i) round_offs.push_back(round_off(*found, i, K));
   const std::vector<bool> are_rigid = rigid_motions(*found, round_offs);
@@ -124,6 +197,7 @@ std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::
     const bool rigid = are_rigid[i];
     if (!rigid && square < 0) return failure_of(Failure::Kind::unstable_state, std::sqrt(-square));
     mode.omega = rigid ? 0 : std::sqrt(square);
+    if (whirling && !rigid) mode.whirl = whirl(report.at, mode.shape, whirling->quarter.col(i));
     for (int axis = 0; axis < 3; ++axis)
       mode.participation[axis] = mode.shape.dot(M * translation(system, axis));
     report.modes.push_back(std::move(mode));

@@ -12,7 +12,8 @@ namespace nurbeam {
 /// Options of a modal or buckling analysis about a state at rest.
 struct ModesOptions {
   enum class Kind {
-    vibration,  ///< (K - omega^2 M) x = 0; in a frame that turns (K + i omega G - omega^2 M) x = 0
+    /// (K - omega^2 M) x = 0; in a frame that turns, or with rotors, (K + i omega G - omega^2 M) x = 0
+    vibration,
     buckling  ///< (K + factor K_g) x = 0, where K_g comes from the loads, without weight and permanent forces
   };
   Kind kind = Kind::vibration;
@@ -31,6 +32,9 @@ struct Mode {
   /// x'M e of a vibration [sqrt(kg)], e the unit translation along each axis; its square is the effective
   /// mass.
   Eigen::Vector3d participation = Eigen::Vector3d::Zero();
+  /// Whether bodies with a rotor, or the nodes of a frame that turns, go round as these turn (1) or against
+  /// it (-1); 0 where they do neither, or nothing turns.
+  int whirl = 0;
 };
 
 struct ModesReport {

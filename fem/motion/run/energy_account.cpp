@@ -130,6 +130,14 @@ double given_by_events(const std::vector<RunEvent>& events) {
   return given;
 }
 
+// Whether a prescribed motion of rigid bodies begins: the first step out of rest has an error in proportion
+// to its speed, however short it is, where the motion begins with a high power of time.
+bool leaves_rest(const BeamModel& model, const State& before) {
+  return before.v.isZero(0) && has_prescribed_motions(model) &&
+         std::ranges::any_of(
+             model.bodies, [](const Body& body) { return body.rigid.has_value(); });
+}
+
 }  // namespace
 
 bool has_prescribed_motions(const BeamModel& model) {
@@ -152,6 +160,7 @@ void EnergyAccount::add_step(const BeamSystem& system, const StepPath& step, boo
 bool EnergyAccount::creates_energy(const BeamSystem& system, const StepPath& step, bool first,
                                    const SimulationReport& report) {
   constexpr double most = 0.05, round_off = 1e-10;
+  if (leaves_rest(system.model(), step.before)) return false;
   const bool known = !first && known_.first == step.before.t;
   const SystemEnergy old = known ? known_.second : energy(system, step.before);
   const SystemEnergy now = energy(system, step.after);

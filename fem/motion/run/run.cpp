@@ -113,8 +113,30 @@ bool Run::fail_in_impact(int rider) {
   return goes_on(Failure{.kind = Failure::Kind::impact, .time = at.state.t, .rider = rider});
 }
 
+namespace {
+
+bool has_attitudes(const BeamSystem& system) {
+  return std::ranges::any_of(
+      system.mesh().attitudes, [](int p) { return p >= 0; });
+}
+
+// With velocities on the constraints, and with accelerations that belong to them, as steps close positions
+// alone. Where beams deform, accelerations are averaged over a step of that length.
+State settled(const BeamSystem& system, const State& state, double length) {
+  State closed = state;
+  if (project_velocities(system, closed).status != ConsistencyStatus::done) return state;
+  if (std::ranges::all_of(system.model().beams, &Beam::rigid))
+    return make_accelerations_consistent(system, closed) == ConsistencyStatus::done ? closed : state;
+  NearSolver solver;
+  const Balance balance = balance_accelerations(system, length, {}, solver, closed);
+  return balance.status == ConsistencyStatus::done ? closed : state;
+}
+
+}  // namespace
+
 State Run::at_the_moment(const BeamSystem& system, const State& state, double length) const {
   if (options.step || observer.follower) return state;
+  if (has_attitudes(system)) return settled(system, state, length);
   if ((system.constraint_curvature(state) + system.constraint_product(state, state.a)).isZero(0))
     return state;
   State balanced = state;

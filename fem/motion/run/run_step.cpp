@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "fem/forces/memory.h"
 #include "fem/motion/events/friction_modes.h"
@@ -210,11 +211,14 @@ std::span<const State> states_within(const Run& run, double length) {
 // Enters a step into the energy account. `length_before`: length of the step before it.
 void book(Run& run, const StepPath& path, bool first, double length_before) {
   const BeamSystem& system = *run.at.system;
-  if (run.options.step || !has_prescribed_motions(*run.model) || !path.within.empty())
+  const bool has_rigid_bodies = std::ranges::any_of(system.mesh().attitudes, [](int p) { return p >= 0; });
+  if (run.options.step || !has_prescribed_motions(*run.model) || (!path.within.empty() && !has_rigid_bodies))
     return run.account.add_step(system, path, first, path);
   const State before = run.at_the_moment(system, path.before, length_before),
               after = run.at_the_moment(system, path.after, run.last_step);
-  run.account.add_step(system, path, first, {before, after});
+  std::vector<State> within;
+  for (const State& state : path.within) within.push_back(run.at_the_moment(system, state, run.last_step));
+  run.account.add_step(system, path, first, {before, after, within, path.is_cubic});
 }
 
 // Records a step that was shortened without having failed, by the limit on moving nodes (step_limit).

@@ -33,7 +33,8 @@ struct CaseBeam {
   MergeRule merge = MergeRule::standard;
   bool torsion = false;
   bool torsion_by_drawing = false;  ///< nothing asks for torsion or against it: the model decides
-  Orientation orientation = {};     ///< with torsion
+  Orientation orientation = {};     ///< with torsion, or of a guide
+  bool has_orientation = false;     ///< whether the case gives it
   StressFree stress_free = StressFree::automatic;
   CurvatureMeasure curvature = CurvatureMeasure::material;
   AxialStrain axial_strain = AxialStrain::ends_and_mean;

@@ -1,5 +1,6 @@
 #pragma once
 #include "pipelines/case/parts/grip.h"
+#include "pipelines/case/parts/rotation.h"
 
 namespace nurbeam {
 
@@ -49,6 +50,15 @@ inline Fields<CaseBeamJoint> beam_joint_fields() {
               "axes", axes,
               "of a universal joint: one of the first body, one of what it is joined to, in the reference configuration",
               [](const Json&, const std::string&, J&, Findings&) {}),
+          field_by<J>(
+              "drive", drive_fields().shape(),
+              "of a \"hinged\" joint of a rigid body with an `axis`: what turns the first body named in "
+              "`between` about the axis, against what it is joined to",
+              [](const Json&, const std::string& path, J&, Findings& findings) {
+                findings.error(path,
+                               "is of a hinge of a rigid body, by \"between\"; of beams turn a "
+                               "support by its \"rotation\"");
+              }),
           slope_field(&J::slope),
           field(&J::name, "name", name(), "heads the columns of its forces"),
       },

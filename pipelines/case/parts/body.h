@@ -1,5 +1,5 @@
 #pragma once
-#include "pipelines/case/fields.h"
+#include "pipelines/case/parts/grip.h"
 
 namespace nurbeam {
 
@@ -35,9 +35,15 @@ struct CaseBody {
   CaseTurn turned;                                                   ///< from the drawing to the start
   std::optional<Eigen::Vector3d> angular_velocity = {};              ///< none when empty [rad/s]
   CaseRotor rotor;
+  std::string fixed_to;                            ///< the beam that holds it; empty: none
+  Place fixed_at = {};                             ///< where on it
+  std::string drag_point;                          ///< the point that the air drags at; empty: none
+  std::optional<Eigen::Vector3d> drag_place = {};  ///< likewise, as drawn [m]; the centre when empty
 
   std::string point_of = {};                        ///< of a point: the rigid body
   Eigen::Vector3d drawn = Eigen::Vector3d::Zero();  ///< of a point: where it is drawn [m]
+  std::string drawn_on = {};                        ///< of a point on a beam: the beam that says where it is
+  Place drawn_at = {};                              ///< where on it
 };
 
 inline Fields<CaseTurn> turn_fields() {
@@ -86,6 +92,16 @@ inline Fields<CaseBody> body_fields() {
       field(&B::drag_area, "drag_area", quantity(Dimension::area, plausible(0, 1e6)),
             "drag coefficient times area, of the drag of the `air`")
           .otherwise("0"),
+      field_by<B>("drag_at", either(name(), point()),
+                  "where the air drags a rigid body: the name of one of its points, or a point as drawn; its "
+                  "centre of mass when omitted",
+                  [](const Json& json, const std::string& path, B& body, Findings& findings) {
+                    CaseGrip grip{.body = body.name};
+                    take_place(json, path, grip, findings);
+                    body.drag_point = grip.body_point;
+                    body.drag_place = grip.body_place;
+                  })
+          .beside("drag_area"),
       field(
           &B::position, "position", point(),
           "where a body without a sliding joint starts; of a rigid body its centre of mass in the reference "
@@ -142,6 +158,16 @@ inline Fields<CaseBody> body_fields() {
             if (const Json* beam = value_under(json, "beam")) take(*beam, body.fastened_to);
             if (const Json* at = value_under(json, "at")) take(*at, body.fastened_at);
           }),
+      field_by<B>(
+          "fixed_to",
+          object({{"beam", name(), "the beam", required}, {"at", place(), "position on it", required}}),
+          "holds a rigid body at a position of a beam with torsion, its attitude too, as a disc on a shaft; its "
+          "centre of mass is there where `position` does not say",
+          [](const Json& json, const std::string&, B& body, Findings&) {
+            if (const Json* beam = value_under(json, "beam")) take(*beam, body.fixed_to);
+            if (const Json* at = value_under(json, "at")) take(*at, body.fixed_at);
+          })
+          .beside("inertia"),
       field(&B::velocity, "velocity", vector(Dimension::speed, plausible(-1e9, 1e9)),
             "how fast it starts; at rest when omitted")
           .beside("position"),

@@ -1,5 +1,6 @@
 #pragma once
 #include "pipelines/case/parts/grip.h"
+#include "pipelines/case/parts/rotation.h"
 
 namespace nurbeam {
 
@@ -11,7 +12,12 @@ struct CaseBodyJoint {
   std::optional<Eigen::Vector3d> axis = {};         ///< of a hinge, a cylinder or a slide, as drawn
   std::array<Eigen::Vector3d, 2> axes = {};         ///< of a universal joint: of the first, of the second
   std::vector<DisplacementTable::Row> motion = {};  ///< of a support from its drawn place [m]
+  std::optional<CaseRotation> rotation = {};        ///< of a support
+  std::optional<CaseDrive> drive = {};              ///< of a hinge
   bool is_support = false;
+  bool says_type = true;  ///< else of a body that is fixed to a beam
+
+  std::string type_path() const { return says_type ? path + ".type" : path; }
 };
 
 /// A force or a moment on a body.

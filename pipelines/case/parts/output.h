@@ -21,8 +21,9 @@ struct CaseOutput {
   CurveParameter cad_parameter = CurveParameter::free;
   std::vector<CaseProbe> probes;
   std::vector<CaseClearance> clearances;
-  bool paraview = false;  ///< a series of files for ParaView
-  bool report = true;     ///< report.html
+  bool accelerations = false;  ///< of point masses and probes too
+  bool paraview = false;       ///< a series of files for ParaView
+  bool report = true;          ///< report.html
 };
 
 /// The shape of "output"; case_output.h reads it.

@@ -18,16 +18,19 @@ struct CaseRotation {
   RowJoin join = RowJoin::smooth_at_rest;
 };
 
-inline Fields<CaseRotation> rotation_fields() {
+/// What drives a hinge of a rigid body, about its axis: one of both.
+struct CaseDrive {
+  std::string path;
+  std::optional<CaseRotation> motion = {};
+  TimeTable moment = {};  ///< on the body, as much on what it is joined to [N m]; empty: none
+};
+
+/// An angle over time, without its axis.
+inline Fields<CaseRotation> angle_fields() {
   using namespace shapes;
   using R = CaseRotation;
   return {
       {
-          field(&R::axis, "axis", vector(Dimension::number), "direction of the axis, by the right hand")
-              .needed(),
-          field(
-              &R::about, "about", point(),
-              "a point of the axis, about which the support goes round too; the supported position when omitted"),
           field_by<R>(
               "table", table(Dimension::angle, plausible(-1e9, 1e9)),
               "angle over time since the drawing: rows [time, angle]; smooth between them, with a "
@@ -49,6 +52,37 @@ inline Fields<CaseRotation> rotation_fields() {
               .beside("speed"),
       },
       {{{"table", "speed"}, required}}};
+}
+
+inline Fields<CaseRotation> rotation_fields() {
+  using namespace shapes;
+  using R = CaseRotation;
+  Fields<R> fields = angle_fields();
+  fields.rows.insert(
+      fields.rows.begin(),
+      {field(&R::axis, "axis", vector(Dimension::number), "direction of the axis, by the right hand")
+           .needed(),
+       field(
+           &R::about, "about", point(),
+           "a point of the axis, about which the support goes round too; the supported position when omitted")});
+  return fields;
+}
+
+inline Fields<CaseDrive> drive_fields() {
+  using namespace shapes;
+  using D = CaseDrive;
+  return {{
+              field_by<D>("motion", angle_fields().shape(),
+                          "prescribes the angle by which the body is turned against what it is joined to",
+                          [](const Json& json, const std::string& path, D& drive, Findings& findings) {
+                            drive.motion.emplace().path = path;
+                            angle_fields().read(json, path, *drive.motion, findings);
+                          }),
+              field(&D::moment, "moment", constant_or_table(Dimension::moment, plausible(-1e12, 1e12)),
+                    "moment about the axis on the body, and as much back on what it is joined to: a number, "
+                    "or rows [time, moment]"),
+          },
+          {{{"motion", "moment"}, required}}};
 }
 
 }  // namespace nurbeam

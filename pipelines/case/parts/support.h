@@ -61,13 +61,12 @@ inline Fields<CaseSupport> support_fields() {
               .beside("direction"),
           field(&S::axis, "axis", vector(Dimension::number),
                 "of a pinned beam with torsion: its section turns about this direction alone, as a hinge's"),
-          field_by<S>(
-              "rotation", rotation_fields().shape(),
-              "turns all that a clamped, fork or pinned support of a beam holds about an axis in space",
-              [](const Json& json, const std::string& path, S& to, Findings& findings) {
-                to.rotation.emplace().path = path;
-                rotation_fields().read(json, path, *to.rotation, findings);
-              }),
+          field_by<S>("rotation", rotation_fields().shape(),
+                      "turns all that a clamped, fork or pinned support holds about an axis in space",
+                      [](const Json& json, const std::string& path, S& to, Findings& findings) {
+                        to.rotation.emplace().path = path;
+                        rotation_fields().read(json, path, *to.rotation, findings);
+                      }),
           slope_field(&S::slope),
           field(&S::name, "name", name(), "heads the columns of its reaction"),
           field(

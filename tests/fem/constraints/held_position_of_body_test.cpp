@@ -67,4 +67,28 @@ TEST(HeldPositionOfBody, FollowsAMotionAndWorks) {
   check_moved_body<3>();
 }
 
+// Taken round an axis, it goes round where it is held, and a moment about the axis works.
+TEST(HeldPositionOfBody, GoesRoundAnAxis) {
+  std::mt19937 random(3);
+  ModelBuilder builder(3);
+  const int body = builder.add_body("ring", 1, held);
+  const AxisTurn turn{Eigen::Vector3d(0.4, -1, 0.7).normalized(), {0.3, -0.6, 0.2}, AngleMotion([](double t) {
+                        return AngleMotion::Moment{t * t + 2 * t, 2 * t + 2, 2};
+                      })};
+  builder.add(Constraint(BodyJoint{.name = "", .point = body, .to = Grip::at_point(held), .turn = turn}));
+  const BeamSystem system(builder.build());
+  const auto holds = the_constraint<3, HeldPositionOfBody<3>>(system);
+  State state = disturbed_state(system, random);
+  state.load = 1;
+  state.t = 0.7;
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(turn.angle.at(0.7).angle, turn.axis).toRotationMatrix();
+  const Eigen::Vector3d there = turn.about + R * (held - turn.about);
+  expect_same(holds.value(state), state.q.segment<3>(position_of(system, body)) - there, 1e-14);
+  expect_derivatives(holds, state, random);
+  const Eigen::Vector3d y = random_vector(3, random);
+  expect_work(holds, state, y, y.dot(holds.rate(state.t)));
+  EXPECT_NEAR(holds.constraint.drive(holds.in.beams(), state, y),
+              turn.axis.dot((there - turn.about).cross(Eigen::Vector3d(-y))), 1e-14);
+}
+
 }  // namespace nurbeam::testing::held_position_of_body_test

@@ -51,6 +51,19 @@ State turned_drawing(const BeamSystem& system, double angle) {
   return state;
 }
 
+constexpr double too_far = 0.2;  // [rad]
+
+// How far a support opens at least where the drawing is turned too far: its place by the chord of its way
+// round the axis, or where it slides its direction by the sine. The start of the bent beam is only 0.204 m
+// off the axis, and nearly square to it: a fork there opens by 0.0425, of which the place has 0.0408.
+double least_opening(const BeamSystem& system) {
+  const Support& support = std::get<Support>(system.model().constraints.front());
+  if (support.guide) return std::sin(too_far);
+  const Eigen::Vector3d arm = system.model().beams[0].curve.position(support.s) - support.turn->about,
+                        &u = support.turn->axis;
+  return 2 * std::sin(too_far / 2) * (arm - arm.dot(u) * u).norm();
+}
+
 // All that a support holds is kept where the drawing is turned by its angle, and by no other.
 template <int D>
 void expect_closed(const BeamSystem& system) {
@@ -58,8 +71,8 @@ void expect_closed(const BeamSystem& system) {
   Eigen::VectorXd g(system.constraint_count());
   system.constraints(turned, g);
   EXPECT_LT(g.norm(), 1e-11);
-  system.constraints(turned_drawing(system, angle_now() + 0.2), g);
-  EXPECT_GT(g.norm(), 0.02);
+  system.constraints(turned_drawing(system, angle_now() + too_far), g);
+  EXPECT_GT(g.norm(), (1 - 1e-9) * least_opening(system));
 }
 TEST(TurnedSupport, HoldsTheDrawingTurnedByItsAngle) {
   const Eigen::Vector3d along(1, 0.4, 0), axis(0.2, 1, 0.5);

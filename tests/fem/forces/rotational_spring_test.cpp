@@ -6,6 +6,7 @@
 #include "fem/forces/memory.h"
 #include "tests/fem/bent_beams.h"
 #include "tests/fem/bound_force.h"
+#include "tests/fem/rigid_bodies.h"
 
 namespace nurbeam::testing::rotational_spring_test {
 
@@ -142,6 +143,89 @@ TEST(RotationalSpring, LosesWhatItsDamperTakes) {
 
 TEST(RotationalSpring, NeedsAnAxisWithoutTorsion) {
   EXPECT_THROW(with_spring({3, false, true, false}), std::invalid_argument);
+}
+
+// ---- Of rigid bodies ----
+
+enum class Other { space, body, section };
+
+// The second end is a place of the first body.
+BeamSystem on_bodies(Other kind, bool has_axis) {
+  ModelBuilder builder(3);
+  const int beam = add_twisted_beam(builder);
+  const int body = add_tumbling_body(builder), other = add_tumbling_body(builder, "other", {1, 0, 0});
+  const int place = builder.add_point("place", body, {0.4, 0.1, 0});
+  const Grip first = kind == Other::space  ? Grip::at_point({0, 0, 0})
+                     : kind == Other::body ? Grip::on_body(other)
+                                           : Grip::on_beam(beam, builder.beam(beam).curve.end());
+  BeamModel model = builder.build();
+  RotationalConnector connector{
+      .name = "hinge", .ends = {first, Grip::on_body(place)}, .stiffness = stiffness, .damping = damping};
+  if (has_axis) {
+    connector.axis = axis(3);
+    connector.angle = free_angle;
+    connector.moment = moment;
+  }
+  model.rotational_connectors.push_back(connector);
+  mark_held_nodes(model);
+  return BeamSystem(model);
+}
+
+template <class Check>
+void for_each_on_bodies(const Check& check) {
+  for (const Other kind : {Other::space, Other::body, Other::section})
+    for (const bool has_axis : {true, false}) {
+      SCOPED_TRACE(::testing::Message() << static_cast<int>(kind) << has_axis);
+      check(on_bodies(kind, has_axis), kind, has_axis);
+    }
+}
+
+TEST(RotationalSpringOfBodies, HasTheDerivativesOfItsForceWhichComesOfItsEnergy) {
+  for_each_on_bodies([](const BeamSystem& system, Other, bool) {
+    std::mt19937 random(5);
+    const auto spring = the_force<3, RotationalSpring<3>>(system, 0);
+    State state = disturbed_state(system, random, 0.1);
+    state.memory = no_memory(system.mesh().memory);
+    expect_tangent(spring, state, random);
+    expect_potential(spring, state, random);
+  });
+}
+
+// Counted over turns about an axis that goes with the first end; the moment turns the body back.
+TEST(RotationalSpringOfBodies, CountsTheAngleOfTheBodyAndTurnsItBack) {
+  const Eigen::Quaterniond first(Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, -2, 0.5).normalized()));
+  for (const bool has_axis : {true, false}) {
+    const BeamSystem system = on_bodies(Other::body, has_axis);
+    const auto spring = the_force<3, RotationalSpring<3>>(system, 0);
+    const Eigen::Vector3d u = axis(3);
+    Eigen::VectorXd memory = no_memory(system.mesh().memory);
+    for (double angle = 0; angle <= (has_axis ? 9 : 2.9); angle += 0.5) {
+      State state = drawn_state(system);
+      put(system, state, 1, {1, 0, 0}, first);
+      put(system, state, 0, tumbling_at, first * Eigen::Quaterniond(Eigen::AngleAxisd(angle, u)));
+      state.v.setZero();
+      state.memory = memory;
+      const auto [phi, M] = spring.force.angle_and_moment(spring.at(), state);
+      EXPECT_NEAR(phi, angle, 1e-8);
+      EXPECT_NEAR(M, has_axis ? stiffness * (angle - free_angle) + moment : stiffness * angle, 1e-7);
+      // Its work on a spin about the axis, as it is then, of each.
+      for (const auto& [body, sign] : {std::pair{0, -1.0}, {1, 1.0}}) {
+        const int p = system.mesh().attitudes[body];
+        const Eigen::Vector4d rate = attitude::rate(state.q.segment<4>(p), first * u);
+        EXPECT_NEAR(-spring.dynamics(state).segment<4>(p).dot(rate), sign * M, 1e-7);
+      }
+      spring.force.commit(spring.at(), state, memory);
+    }
+  }
+}
+
+TEST(RotationalSpringOfBodies, IsNoneOfAPointMass) {
+  ModelBuilder builder(3);
+  const int mass = builder.add_body("mass", 1, {0, 0, 0});
+  BeamModel model = builder.build();
+  model.rotational_connectors.push_back(
+      {.name = "hinge", .ends = {Grip::at_point({0, 0, 0}), Grip::on_body(mass)}, .stiffness = 1});
+  EXPECT_THROW(BeamSystem{model}, std::invalid_argument);
 }
 
 }  // namespace nurbeam::testing::rotational_spring_test

@@ -47,6 +47,33 @@ TEST(Paraview, AResumedSeriesKeepsTheFramesBeforeIt) {
             std::string::npos);
 }
 
+// Half a turn about z.
+TEST(Paraview, RigidBodiesAreBoxesThatTurn) {
+  const test::TemporaryDirectory directory;
+  Snapshot frame;
+  frame.beams.resize(1);
+  frame.bodies.resize(2);
+  frame.bodies[1].point.position = {10, 20, 30};
+  frame.bodies[1].turn = TurnRecord{{0, 0, 0, 1}, Eigen::Vector3d::Zero()};
+  ParaviewSeries series(directory.path(), {.bodies = {"point", "box"}, .beams = {"beam"}}, {}, "",
+                        {Eigen::Matrix3d::Zero(), Eigen::Vector3d(1, 2, 3).asDiagonal()});
+  series.write(frame);
+  series.write_index();
+  const auto text = [&](const char* name) {
+    std::ifstream stream(directory.path() / name);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  EXPECT_NE(text("frames.pvd").find("name=\"boxes\" file=\"frames/boxes_000000.vtu\""), std::string::npos);
+  const std::string grid = text("frames/boxes_000000.vtu");
+  EXPECT_NE(grid.find("NumberOfPoints=\"8\" NumberOfCells=\"1\""), std::string::npos);
+  const double corners[] = {11, 22, 27, 9, 22, 27, 9, 18, 27, 11, 18, 27,
+                            11, 22, 33, 9, 22, 33, 9, 18, 33, 11, 18, 33};
+  std::string bytes(8, '\0');
+  bytes[0] = static_cast<char>(sizeof corners);
+  bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
+  EXPECT_NE(grid.find(base64(bytes.data(), bytes.size())), std::string::npos);
+}
+
 TEST(Paraview, ConnectorsAreLinesBetweenTheirEnds) {
   const test::TemporaryDirectory directory;
   Snapshot frame;

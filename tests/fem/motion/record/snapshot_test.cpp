@@ -180,5 +180,46 @@ TEST(RecordedConnectors, HaveTheirEndsWhereThatIsWhichTheyHold) {
     EXPECT_NEAR(connector.length, (connector.to - connector.from).norm(), 1e-15);
 }
 
+// The acceleration of the material is the second difference of where it is; beside a node that moves too.
+TEST(RecordedAccelerations, AreThoseOfTheMaterialAndOfWhatSlides) {
+  BeamModel model = arc_with_slider(WeightRule::material);
+  model.gravity = {0, -9.81, 0};
+  model.accelerations = true;
+  const BeamSystem system(model, initial_plan(model));
+  State state = moved_state(system);
+  for (int i = 0; i < state.a.size(); ++i) state.a[i] = std::sin(2.0 * i + 1);
+  const auto at = [&](double h) {
+    State then = state;
+    then.q += h * state.v + h * h / 2 * state.a;
+    return then;
+  };
+  constexpr double h = 1e-4;
+  for (const double s : {0.1, 0.66, 0.75, 1.3}) {
+    const Snapshot snapshot = record_snapshot(system, state, {{.beam = 0, .s = s}});
+    const auto place = [&](double time) { return material_point(system, at(time), 0, s).r; };
+    const Eigen::Vector3d a = (place(h) - 2 * place(0) + place(-h)) / (h * h);
+    const FeltRecord& felt = snapshot.probes[0].felt.value();
+    EXPECT_LT((felt.acceleration - a).norm(), 1e-5 * (1 + a.norm())) << s;
+    const Eigen::Vector3d t = material_point(system, state, 0, s).rs.normalized(),
+                          f = (felt.acceleration - model.gravity) / 9.80665;
+    EXPECT_NEAR(felt.load_factor[0], f.dot(t), 1e-12);
+    EXPECT_EQ(felt.load_factor[1], 0);
+    EXPECT_NEAR(felt.load_factor[2], f.dot(Eigen::Vector3d(-t.y(), t.x(), 0)) * (t.x() > 0 ? 1 : -1), 1e-12);
+  }
+  const FeltRecord body = record_snapshot(system, state, {}).bodies[0].felt.value();
+  const int r = system.mesh().bodies[0];
+  EXPECT_EQ(body.acceleration.head<2>(), (state.a.segment<2>(r)));
+  EXPECT_NEAR(body.load_factor.norm(), (body.acceleration - model.gravity).norm() / 9.80665, 1e-12);
+  EXPECT_FALSE(body.in_space);
+}
+
+TEST(RecordedAccelerations, AreThereWhereTheyAreAskedFor) {
+  const BeamModel model = arc_with_slider(WeightRule::material);
+  const BeamSystem system(model, initial_plan(model));
+  const Snapshot snapshot = record_snapshot(system, moved_state(system), {{.beam = 0, .s = 0.1}});
+  EXPECT_FALSE(snapshot.probes[0].felt);
+  EXPECT_FALSE(snapshot.bodies[0].felt);
+}
+
 }  // namespace
 }  // namespace nurbeam

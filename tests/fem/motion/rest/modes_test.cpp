@@ -8,6 +8,7 @@
 #include <memory>
 #include <random>
 
+#include "fem/model/build.h"
 #include "fem/motion/rest/mode_shape.h"
 #include "fem/system/initial_state.h"
 #include "solver/rest/static_equilibrium.h"
@@ -231,6 +232,29 @@ TEST(ModeShapes, MoveThePointsAndLeaveTheSectionForces) {
   EXPECT_NEAR(moved.probes[0].velocity.norm(), 2 * way, 1e-9);
   EXPECT_EQ(moved.beams[0].elements[0].axial_force, rest.beams[0].elements[0].axial_force);
   EXPECT_NE(moved.beams[0].elements[3].control_points, rest.beams[0].elements[3].control_points);
+}
+
+// A disc on a ball in its centre, held upright by springs against turning: A w^2 - h w - k = 0 forwards.
+TEST(Modes, OfARotorGoRoundForwardsAndBackwards) {
+  constexpr double A = 0.4, C = 0.6, k = 30, h = 5;
+  ModelBuilder builder(3);
+  const int disc = builder.add_rigid_body("disc", 2, Eigen::Vector3d(A, A, C).asDiagonal(), {0, 0, 0});
+  builder.body(disc).rigid->rotor = Eigen::Vector3d(0, 0, h);
+  builder.add(Constraint(BodyJoint{.name = "", .point = disc, .to = Grip::at_point({0, 0, 0})}));
+  BeamModel model = builder.build();
+  model.rotational_connectors.push_back(
+      {.name = "gimbal", .ends = {Grip::at_point({0, 0, 0}), Grip::on_body(disc)}, .stiffness = k});
+  mark_held_nodes(model);
+  const ModesReport found = modes_of(model, {.count = 3});
+  ASSERT_FALSE(found.rest.failure);
+  ASSERT_EQ(found.modes.size(), 3u);
+  const double root = std::sqrt(h * h + 4 * A * k);
+  EXPECT_NEAR(found.modes[0].omega, (root - h) / (2 * A), 1e-7);
+  EXPECT_EQ(found.modes[0].whirl, -1);
+  EXPECT_NEAR(found.modes[1].omega, std::sqrt(k / C), 1e-7);
+  EXPECT_EQ(found.modes[1].whirl, 0);
+  EXPECT_NEAR(found.modes[2].omega, (root + h) / (2 * A), 1e-7);
+  EXPECT_EQ(found.modes[2].whirl, 1);
 }
 
 }  // namespace
