@@ -14,7 +14,7 @@ using namespace verification;
 using Vector = Eigen::Vector3d;
 using std::numbers::pi;
 
-constexpr double loop = 7, g = 9.81;
+constexpr double loop = 7, gravity = 9.81;
 
 // A moment of a run that begins there.
 RunRecord moment(const std::string& bodies, const std::string& parts) {
@@ -29,7 +29,7 @@ VerifyResult point_in_a_loop() {
   VerifyResult result;
   for (const auto& [degrees, felt] : {std::pair{0, 7.424553747}, {90, 4.423528932}, {180, 1.422504117}}) {
     const double angle = degrees * pi / 180,
-                 speed = std::sqrt(21 * 21 - 2 * g * loop * (1 - std::cos(angle)));
+                 speed = std::sqrt(21 * 21 - 2 * gravity * loop * (1 - std::cos(angle)));
     const RunRecord run =
         moment(R"({ "name": "car", "mass": 500 })",
                loop_rail() + R"(, "sliding_joints": [{ "body": "car", "beam": "rail", "at": { "near": )" +
@@ -53,7 +53,7 @@ VerifyResult cart_in_a_loop() {
         {180, 0., 0.496265634, -0.151124064, 0.420703602}}) {
     const double angle = degrees * pi / 180;
     const double spin =
-        std::sqrt(9 - 2 * mass * g * lever * (1 - std::cos(angle)) / (mass * lever * lever + inertia));
+        std::sqrt(9 - 2 * mass * gravity * lever * (1 - std::cos(angle)) / (mass * lever * lever + inertia));
     // It runs towards greater angles.
     const Vector forward(std::cos(angle), 0, std::sin(angle)), inwards(-std::sin(angle), 0, std::cos(angle));
     const Vector middle = -inside * inwards;
@@ -79,7 +79,7 @@ VerifyResult cart_in_a_loop() {
 
 /// On a level circle of 20 m at 12 m/s, banked by 30 degrees; the centre is 1.1 m up along the section.
 VerifyResult banked_curve() {
-  constexpr double radius = 20, speed = 12, bank = pi / 6, up = 1.1;
+  constexpr double radius = 20, bank = pi / 6, up = 1.1;
   const double c = std::cos(bank), s = std::sin(bank);
   const Vector at(radius, 0, 0), forward(0, 1, 0), section_up(-s, 0, c);
   std::string points, weights;

@@ -20,13 +20,13 @@ namespace {
 
 using std::numbers::pi;
 
-ImportReport import_text(const std::string& text, const ImportOptions& options = {}) {
+ImportReport curves_in_text(const std::string& text, const ImportOptions& options = {}) {
   const ScratchDirectory scratch;
   return import_curves(scratch.file("curves.step", text), options);
 }
 
 ImportedCurve only_curve(const std::string& text) {
-  const ImportReport report = import_text(text);
+  const ImportReport report = curves_in_text(text);
   if (report.curves.size() != 1) throw std::runtime_error("expected one curve");
   return report.curves[0];
 }
@@ -190,7 +190,7 @@ TEST(ImportCurves, ACompositeCurveIsItsParts) {
 #203 = POLYLINE('',(#204,#205));
 #204 = CARTESIAN_POINT('',(540.302305868139717,841.470984807896507,0.));
 #205 = CARTESIAN_POINT('',(0.,2000.,0.));)";
-  const ImportReport report = import_text(step_text_of("#200", entities));
+  const ImportReport report = curves_in_text(step_text_of("#200", entities));
   ASSERT_EQ(report.curves.size(), 2U);
   EXPECT_EQ(report.curves[0].entity, "circle");
   EXPECT_EQ(report.curves[0].name, "whole");
@@ -200,7 +200,7 @@ TEST(ImportCurves, ACompositeCurveIsItsParts) {
 TEST(ImportCurves, AnOffsetCurveIsApproximatedWithItsMeasuredDeviation) {
   const std::string offset = R"(#100 = OFFSET_CURVE_3D('wide',#101,250.,.F.,#13);
 #101 = ELLIPSE('',#11,3000.,1000.);)";
-  const ImportReport report = import_text(step_text_of("#100", offset));
+  const ImportReport report = curves_in_text(step_text_of("#100", offset));
   ASSERT_EQ(report.curves.size(), 1U);
   const ImportedCurve& curve = report.curves[0];
   EXPECT_EQ(curve.entity, "offset");
@@ -260,7 +260,7 @@ TEST(ImportCurves, TheLengthUnitOfAStepFileIsReportedAndApplied) {
                                 "#42 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) )",
                                 "inch", 0.0254}}) {
     const ImportReport report =
-        import_text(step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "", unit.entity));
+        curves_in_text(step_text_of("#100", "#100 = CIRCLE('',#11,1.);", "", unit.entity));
     ASSERT_EQ(report.curves.size(), 1U);
     EXPECT_EQ(report.unit, unit.name);
     EXPECT_DOUBLE_EQ(report.unit_in_metres, unit.in_metres);
@@ -273,7 +273,7 @@ TEST(ImportCurves, AFootOfTwelveInchesIsTwelveInches) {
       "( CONVERSION_BASED_UNIT('FOOT',#34) LENGTH_UNIT() NAMED_UNIT(#33) );\n"
       "#34 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(12.),#35);\n#35 = " +
       inches;
-  const ImportReport report = import_text(step_text_of("#100", "#100 = CIRCLE('',#11,2.);", "", feet));
+  const ImportReport report = curves_in_text(step_text_of("#100", "#100 = CIRCLE('',#11,2.);", "", feet));
   EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
   ASSERT_EQ(report.curves.size(), 1U);
   EXPECT_NEAR(report.unit_in_metres, 0.3048, 1e-16);

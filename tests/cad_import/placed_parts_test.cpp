@@ -76,7 +76,7 @@ std::string between(const Eigen::Isometry3d& A, const Eigen::Isometry3d& B, Orde
          ");\n" + placement(301, A) + placement(310, B);
 }
 
-NurbsCurve only_curve(const std::string& text) {
+NurbsCurve placed_curve(const std::string& text) {
   const ImportReport report = import_text(text);
   EXPECT_TRUE(report.diagnostics.empty()) << report.diagnostics[0].message;
   if (report.curves.size() != 1) throw std::runtime_error("expected one curve");
@@ -106,7 +106,7 @@ TEST(PlacedParts, StandWhereOnePlacementIsBroughtToTheOther) {
       Eigen::Affine3d place = B * A.inverse();
       place.translation() *= 1e-3;
       for (const Order order : {Order{}, Order{.items_swapped = true}, Order{.assembly_is_first = true}})
-        expect_placed(only_curve(assembly(between(A, B, order), millimetres, order)), place, 1e-3);
+        expect_placed(placed_curve(assembly(between(A, B, order), millimetres, order)), place, 1e-3);
     }
 }
 
@@ -148,9 +148,9 @@ TEST(PlacedParts, AreScaledAndMirroredByAnOperator) {
       place.linear() = factors.asDiagonal();
       place.translation().x() = 0.1;
       if (assembly_is_first) place = place.inverse();
-      expect_placed(
-          only_curve(assembly_by_operator(operation(axis1, scale), {.assembly_is_first = assembly_is_first})),
-          place, 1e-3);
+      expect_placed(placed_curve(assembly_by_operator(operation(axis1, scale),
+                                                      {.assembly_is_first = assembly_is_first})),
+                    place, 1e-3);
     }
 }
 
@@ -164,7 +164,7 @@ TEST(PlacedParts, ByAnOperatorWrittenAsAComplexInstanceStandThereOrAreNamed) {
   Eigen::Affine3d place = Eigen::Affine3d::Identity();
   place.linear() = Eigen::Vector3d(-3, 3, 3).asDiagonal();
   place.translation().x() = 0.1;
-  expect_placed(only_curve(complex), place, 1e-3);
+  expect_placed(placed_curve(complex), place, 1e-3);
   const ImportReport unknown =
       import_text(with(complex, "GEOMETRIC_REPRESENTATION_ITEM", "ODD_TRANSFORMATION"));
   ASSERT_EQ(unknown.curves.size(), 1U);
@@ -198,7 +198,7 @@ TEST(PlacedParts, DrawnByMappedItemsStandBetweenTheirPlacementsToo) {
                    "#201 = REPRESENTATION_MAP(#301,#200);\n#202 = MAPPED_ITEM('',#201,#310);");
       Eigen::Affine3d place = B * A.inverse();
       place.translation() *= 1e-3;
-      expect_placed(only_curve(text), place, 1e-3);
+      expect_placed(placed_curve(text), place, 1e-3);
     }
 }
 

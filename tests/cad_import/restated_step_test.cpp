@@ -25,7 +25,7 @@ struct Unit {
 const std::vector<Unit> units{{millimetres, 1e-3}, {inches, 0.0254}};
 
 /// #100 of these entities alone, with as many diagnostics.
-NurbsCurve only_curve(const std::string& text, std::size_t diagnostics = 0) {
+NurbsCurve restated_curve(const std::string& text, std::size_t diagnostics = 0) {
   const ImportReport report = import_text(text);
   EXPECT_EQ(report.diagnostics.size(), diagnostics)
       << (report.diagnostics.empty() ? "" : report.diagnostics[0].message);
@@ -41,10 +41,10 @@ void expect_ends(const NurbsCurve& curve, const Eigen::Vector3d& start, const Ei
 
 TEST(RestatedStep, OffsetCurvesHaveTheirDistanceInTheUnitOfTheFile) {
   for (const Unit& unit : units)
-    expect_ends(only_curve(step_text_of("#100",
-                                        "#100 = OFFSET_CURVE_3D('',#101,1.,.F.,#13);\n"
-                                        "#101 = CIRCLE('',#11,10.);",
-                                        "", unit.text)),
+    expect_ends(restated_curve(step_text_of("#100",
+                                            "#100 = OFFSET_CURVE_3D('',#101,1.,.F.,#13);\n"
+                                            "#101 = CIRCLE('',#11,10.);",
+                                            "", unit.text)),
                 {9, 0, 0}, {9, 0, 0}, unit.in_metres);
 }
 
@@ -64,13 +64,13 @@ TEST(RestatedStep, PlacementsWithoutFirstAxisHaveThatOfTheStandard) {
   for (const auto& [third, first] : all) {
     const std::string placement =
         "#102 = AXIS2_PLACEMENT_3D('',#12,#103,$);\n#103 = DIRECTION('',(" + third + "));\n";
-    expect_ends(only_curve(step_text_of("#100", "#100 = ELLIPSE('',#102,5.,2.);\n" + placement)), 5 * first,
-                5 * first, 1e-3);
+    expect_ends(restated_curve(step_text_of("#100", "#100 = ELLIPSE('',#102,5.,2.);\n" + placement)),
+                5 * first, 5 * first, 1e-3);
   }
 }
 
 TEST(RestatedStep, PiecesOfConicsWhosePlacementHasNoAxesAreNoWholeConics) {
-  const NurbsCurve arc = only_curve(step_text_of(
+  const NurbsCurve arc = restated_curve(step_text_of(
       "#100",
       "#100 = TRIMMED_CURVE('',#101,(PARAMETER_VALUE(0.5)),(PARAMETER_VALUE(2.)),.F.,.PARAMETER.);\n"
       "#101 = CIRCLE('',#102,4.);\n#102 = AXIS2_PLACEMENT_3D('',#12,$,$);\n"));
@@ -92,7 +92,7 @@ TEST(RestatedStep, ClosedSplinesWhoseEndsHaveDifferentWeightsKeepThem) {
     points += "#" + number + " = CARTESIAN_POINT('',(" + text_of(pole(0) / pole(3), 17) + "," +
               text_of(pole(1) / pole(3), 17) + ",0.));\n";
   }
-  const NurbsCurve read = only_curve(step_text_of(
+  const NurbsCurve read = restated_curve(step_text_of(
       "#100", "#100 = ( BOUNDED_CURVE() B_SPLINE_CURVE(2,(" + poles +
                   "),.UNSPECIFIED.,.T.,.F.) B_SPLINE_CURVE_WITH_KNOTS((3,2,2,3),(0.,1.,2.,3.),.UNSPECIFIED.) "
                   "CURVE() GEOMETRIC_REPRESENTATION_ITEM() RATIONAL_B_SPLINE_CURVE((" +
@@ -173,8 +173,8 @@ TEST(RestatedStep, PiecesOfParabolasGoByTheirPoints) {
     const auto read = [&](const std::string& first, const std::string& last, const std::string& master,
                           std::size_t warnings) {
       expect_parabola(
-          only_curve(step_text_of("#100", piece(first, last, master) + parabola + points, "", unit.text),
-                     warnings),
+          restated_curve(step_text_of("#100", piece(first, last, master) + parabola + points, "", unit.text),
+                         warnings),
           unit.in_metres);
     };
     for (const std::string master : {"PARAMETER", "CARTESIAN", "UNSPECIFIED"}) {
@@ -183,7 +183,7 @@ TEST(RestatedStep, PiecesOfParabolasGoByTheirPoints) {
     }
   }
   // As OpenCASCADE has them, lengths.
-  expect_parabola(only_curve(step_text_of(
+  expect_parabola(restated_curve(step_text_of(
                       "#100", piece("#200,PARAMETER_VALUE(-4.)", "#201,PARAMETER_VALUE(6.)", "PARAMETER") +
                                   parabola + points)),
                   1e-3);
@@ -208,7 +208,7 @@ TEST(RestatedStep, PiecesOfParabolasByOpenCascadeHaveLengths) {
       step_text_of("#100", piece("PARAMETER_VALUE(-4.)", "PARAMETER_VALUE(6.)", "PARAMETER") + parabola);
   const std::string nobody = "(''),(''),'','',''";
   text.replace(text.find(nobody), nobody.size(), "(''),(''),'Open CASCADE STEP processor 7.6','FreeCAD',''");
-  expect_parabola(only_curve(text), 1e-3);
+  expect_parabola(restated_curve(text), 1e-3);
 }
 
 TEST(RestatedStep, PiecesOfParabolasInEdgesGoByTheVertices) {
@@ -234,7 +234,7 @@ TEST(RestatedStep, PiecesOfParabolasInEdgesGoByTheVertices) {
 TEST(RestatedStep, PiecesOfHyperbolasAreThoseOfTheStandard) {
   // C + 3 cosh u x + 2 sinh u y
   for (const Unit& unit : units)
-    expect_ends(only_curve(step_text_of(
+    expect_ends(restated_curve(step_text_of(
                     "#100", piece(first_u, last_u, "PARAMETER") + "#101 = HYPERBOLA('',#11,3.,2.);\n", "",
                     unit.text)),
                 {3 * std::cosh(1), -2 * std::sinh(1), 0}, {3 * std::cosh(1.5), 2 * std::sinh(1.5), 0},
@@ -274,7 +274,7 @@ TEST(RestatedStep, ReplicasAreScaledTurnedAndMirrored) {
   for (const Unit& unit : units)
     for (const auto& [transformation, matrix] : cases) {
       SCOPED_TRACE(transformation);
-      const NurbsCurve curve = only_curve(step_text_of("#100", transformation + arc, "", unit.text));
+      const NurbsCurve curve = restated_curve(step_text_of("#100", transformation + arc, "", unit.text));
       const Eigen::Vector3d origin(1, 2, 3);
       expect_ends(curve, origin + matrix * Eigen::Vector3d(10, 0, 4),
                   origin + matrix * Eigen::Vector3d(0, 10, 4), unit.in_metres);
@@ -299,7 +299,7 @@ TEST(RestatedStep, PiecesOfPiecesCountFromWhereTheseBegin) {
                     circle = "#110 = CIRCLE('',#11,5.);\n";
   for (const Unit& unit : units) {
     const auto read = [&](const std::string& text) {
-      return only_curve(step_text_of("#100", text, "", unit.text));
+      return restated_curve(step_text_of("#100", text, "", unit.text));
     };
     expect_ends(read(piece("100", "101", 1, 3, true) + piece("101", "110", 2, 8, true) + line), {3, 0, 0},
                 {5, 0, 0}, unit.in_metres);
@@ -345,8 +345,8 @@ TEST(RestatedStep, MappedItemsAreScaledTurnedAndMirroredAsReplicasAre) {
                                                      {"#14", "#104", "2.", "#106"}}) {
       const std::string transformation = replica(axis1, axis2, scale, axis3);
       SCOPED_TRACE(transformation);
-      const NurbsCurve witness = only_curve(step_text_of("#100", transformation + arc, "", unit.text));
-      const NurbsCurve curve = only_curve(mapped(transformation, unit.text));
+      const NurbsCurve witness = restated_curve(step_text_of("#100", transformation + arc, "", unit.text));
+      const NurbsCurve curve = restated_curve(mapped(transformation, unit.text));
       expect_ends(curve, start_of(witness) / unit.in_metres, end_of(witness) / unit.in_metres,
                   unit.in_metres);
       EXPECT_NEAR(length(curve), length(witness), 1e-13);
@@ -359,9 +359,9 @@ TEST(RestatedStep, OperatorsMayBeWrittenAsComplexInstances) {
       simple, "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#14,#105,#103,3.,#13)",
       "(CARTESIAN_TRANSFORMATION_OPERATOR(#14,#105,#103,3.)CARTESIAN_TRANSFORMATION_OPERATOR_3D(#13)"
       "FUNCTIONALLY_DEFINED_TRANSFORMATION('','')GEOMETRIC_REPRESENTATION_ITEM()REPRESENTATION_ITEM(''))");
-  const NurbsCurve witness = only_curve(step_text_of("#100", simple + arc));
+  const NurbsCurve witness = restated_curve(step_text_of("#100", simple + arc));
   for (const std::string& text : {step_text_of("#100", complex + arc), mapped(complex, units[0].text)})
-    expect_ends(only_curve(text), start_of(witness) / 1e-3, end_of(witness) / 1e-3, 1e-3);
+    expect_ends(restated_curve(text), start_of(witness) / 1e-3, end_of(witness) / 1e-3, 1e-3);
 }
 
 TEST(RestatedStep, AScaledMappedItemLeavesTheOthersOfItsShapeAlone) {
@@ -392,14 +392,14 @@ TEST(RestatedStep, MappedItemsWithoutAPlaceAreNamed) {
 TEST(RestatedStep, AReplicaOfAReplicaHasBothScales) {
   const std::string text =
       replica("$", "$", "2.", "$") + "#101 = CURVE_REPLICA('',#120,#102);\n#120 = CIRCLE('',#11,10.);\n";
-  expect_ends(only_curve(step_text_of("#100", text)), {1 + 2 * 1 + 40, 2 + 2 * 2, 3 + 2 * 3},
+  expect_ends(restated_curve(step_text_of("#100", text)), {1 + 2 * 1 + 40, 2 + 2 * 2, 3 + 2 * 3},
               {1 + 2 * 1 + 40, 2 + 2 * 2, 3 + 2 * 3}, 1e-3);
 }
 
 TEST(RestatedStep, APieceOfAReplicaOfAParabolaIsScaled) {
   const std::string text = "#99 = TRIMMED_CURVE('',#100,(" + first_u + "),(" + last_u +
                            "),.T.,.PARAMETER.);\n" + replica("$", "$", "2.", "$") + parabola;
-  expect_ends(only_curve(step_text_of("#99", text), 1), {5, -6, 3}, {10, 14, 3}, 1e-3);
+  expect_ends(restated_curve(step_text_of("#99", text), 1), {5, -6, 3}, {10, 14, 3}, 1e-3);
 }
 
 TEST(RestatedStep, ReplicasThatAreNotReadAreNamed) {

@@ -39,7 +39,7 @@ SimulationOptions options_of(const FeatureModel& feature) {
   return options;
 }
 
-class Features : public ::testing::TestWithParam<FeatureModel> {};
+class FeaturesOfARun : public ::testing::TestWithParam<FeatureModel> {};
 
 struct EndOfRun {
   State state;
@@ -55,7 +55,7 @@ EndOfRun run_to_the_end(const std::shared_ptr<const BeamModel>& model, const Sim
   return {simulation.state(), simulation.report(), simulation.present()};
 }
 
-TEST_P(Features, GoOnFromARestartFileBitByBit) {
+TEST_P(FeaturesOfARun, GoOnFromARestartFileBitByBit) {
   const auto model = std::make_shared<const BeamModel>(GetParam().model);
   const SimulationOptions options = options_of(GetParam());
   std::vector<Checkpoint> points;
@@ -122,7 +122,7 @@ void expect_same(const std::vector<double>& before, const std::vector<double>& a
 
 // Elements are split and merged beside the bodies at every tenth step as length control would at other
 // lengths.
-TEST_P(Features, AreTheSameOnAnotherMesh) {
+TEST_P(FeaturesOfARun, AreTheSameOnAnotherMesh) {
   const auto model = std::make_shared<const BeamModel>(GetParam().model);
   const SimulationOptions options = options_of(GetParam());
   if (model->riders.empty() || model->riders[0].as_point || model->beam_of(model->riders[0]).rigid)
@@ -150,7 +150,7 @@ TEST_P(Features, AreTheSameOnAnotherMesh) {
   EXPECT_GE(changes, slid > 0.2 ? 3 : 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Features, ::testing::ValuesIn(verification::feature_models()),
+INSTANTIATE_TEST_SUITE_P(Each, FeaturesOfARun, ::testing::ValuesIn(verification::feature_models()),
                          [](const auto& info) {
                            std::string name = info.param.name;
                            for (char& c : name) c = c == '-' ? '_' : c;

@@ -20,7 +20,7 @@ std::string bodies_case(const std::string& bodies, const std::string& parts, con
          R"( }, "output": { "report": false } })";
 }
 const std::string still = R"("type": "static")";
-const std::string motion = R"("end_time": 1, "step": 2e-3)";
+const std::string a_second = R"("end_time": 1, "step": 2e-3)";
 
 // A bridge of 10 m, clamped at both ends; with torsion where sections are asked for.
 std::string bridge(double stiffness) {
@@ -55,7 +55,7 @@ TEST(RigidBodies, RollOverBeamsThatBend) {
   const std::string wheels = R"(, "sliding_joints": [
       { "body": "body", "point": "rear", "beam": "bridge", "at": { "near": [1, 0, 0] }, "speed": 3 },
       { "body": "body", "point": "front", "beam": "bridge", "at": { "near": [2, 0, 0] }, "speed": 3 }])";
-  const CaseRun run = test::run_text(bodies_case(body(""), bridge(1e6) + wheels, motion));
+  const CaseRun run = test::run_text(bodies_case(body(""), bridge(1e6) + wheels, a_second));
   ASSERT_EQ(run.code, 0) << run.messages;
   EXPECT_NEAR(run.last("body.rear.s [m]"), 4, 0.05);
   EXPECT_LT(run.last("body.z [m]"), -0.5);
@@ -71,7 +71,7 @@ TEST(RigidBodies, FollowSectionsOfBeamsAndOfGuides) {
             R"(, "sliding_joints": [{ "body": "body", "point": "rear", "beam": "bridge", "at": { "near": [1, 0, 0] },
                     "follows": )" +
             follows + " }]",
-        motion));
+        a_second));
     EXPECT_EQ(run.code, 0) << run.messages;
     return run;
   };
@@ -89,7 +89,7 @@ TEST(RigidBodies, FollowSectionsOfBeamsAndOfGuides) {
 TEST(RigidBodies, TellWhatIsFelt) {
   const CaseRun run = test::run_text(bodies_case(
       body(R"(, "axes": { "x": [0, 1, 0], "z": [0, 0, 1] })"),
-      R"(, "supports": [{ "name": "held", "body": "body", "at": [1, 2, 3], "type": "clamped" }])", motion));
+      R"(, "supports": [{ "name": "held", "body": "body", "at": [1, 2, 3], "type": "clamped" }])", a_second));
   ASSERT_EQ(run.code, 0) << run.messages;
   EXPECT_NEAR(run.last("body.g_z [1]"), 9.81 / 9.80665, 1e-12);
   EXPECT_NEAR(run.last("body.rear.g_z [1]"), 9.81 / 9.80665, 1e-12);
@@ -118,8 +118,9 @@ TEST(RigidBodies, SayWhatIsWrongWithThem) {
   };
   for (
       const auto& [bodies, parts, analysis, message] :
-      {Wrong{thin, "", motion, "is 1 more than the sum of the others"},
-       Wrong{body(""), support(R"(, "at": "raer")"), motion, "has no point \"raer\"; did you mean \"rear\"?"},
+      {Wrong{thin, "", a_second, "is 1 more than the sum of the others"},
+       Wrong{body(""), support(R"(, "at": "raer")"), a_second,
+             "has no point \"raer\"; did you mean \"rear\"?"},
        Wrong{body(""), "", still, "nothing holds body \"body\""},
        Wrong{
            point_mass,
@@ -127,18 +128,18 @@ TEST(RigidBodies, SayWhatIsWrongWithThem) {
                    "connectors": [{ "name": "spring", "type": "spring", "stiffness": 1, "from": { "body": "body" },
                                     "to": { "point": [0, 0, 1] } }],
                    "joints": [{ "between": [{ "body": "body" }, { "point": [0, 0, 0] }], "type": "rigid" }])",
-           motion, "a point mass, which has none"},
+           a_second, "a point mass, which has none"},
        Wrong{body(R"(, "turned": { "axis": [0, 1, 0], "angle": 30 })"),
-             support(R"(, "at": "rear", "axis": [1, 0, 0])"), motion, "which \"turned\" takes"},
+             support(R"(, "at": "rear", "axis": [1, 0, 0])"), a_second, "which \"turned\" takes"},
        Wrong{
            body(""),
            R"(, "loads": [{ "body": "body", "force": [1, 0, 0] }, { "body": "nobody", "force": [1, 0, 0] }])",
-           motion, "there is no body \"nobody\""},
+           a_second, "there is no body \"nobody\""},
        Wrong{body(""),
              bridge(1e6) + R"(, "sliding_joints": [{ "body": "body", "point": "rear", "beam": "bridge",
                  "at": { "fraction": 0.5 } }])",
-             motion, "4 m from the place of the beam that it is to slide on"},
-       Wrong{"", "", motion, "and there are no rigid bodies"}}) {
+             a_second, "4 m from the place of the beam that it is to slide on"},
+       Wrong{"", "", a_second, "and there are no rigid bodies"}}) {
     const CaseRun run = test::run_text(bodies_case(bodies, parts, analysis));
     EXPECT_NE(run.code, 0) << message;
     EXPECT_NE(run.messages.find(message), std::string::npos) << message << "\nin\n" << run.messages;

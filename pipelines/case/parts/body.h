@@ -93,8 +93,8 @@ inline Fields<CaseBody> body_fields() {
             "drag coefficient times area, of the drag of the `air`")
           .otherwise("0"),
       field_by<B>("drag_at", either(name(), point()),
-                  "where the air drags a rigid body: the name of one of its points, or a point as drawn; its "
-                  "centre of mass when omitted",
+                  "where the air drags a rigid body: the name of one of its points, or a point of it in the "
+                  "reference configuration; its centre of mass when omitted",
                   [](const Json& json, const std::string& path, B& body, Findings& findings) {
                     CaseGrip grip{.body = body.name};
                     take_place(json, path, grip, findings);

@@ -30,11 +30,11 @@ class UnevenPendulum : public testing::CartesianPendulum {
   static Eigen::Matrix2d spring() { return (Eigen::Matrix2d() << 1.3, -2.1, 0.6, 0.8).finished(); }
 };
 
-using Matrix = MotionTangents::Matrix;
+using Rows = MotionTangents::Matrix;
 
 /// Numbers without a pattern.
-Matrix some(Eigen::Index rows, Eigen::Index columns, double seed) {
-  return Matrix::NullaryExpr(
+Rows some(Eigen::Index rows, Eigen::Index columns, double seed) {
+  return Rows::NullaryExpr(
       rows, columns,
       [seed](Eigen::Index i, Eigen::Index j) {
         return std::sin(seed + 1.7 * static_cast<double>(i) + 2.9 * static_cast<double>(j * j));
@@ -89,13 +89,13 @@ TEST_P(StepAdjointOf, IsTheTransposeOfTheTangent) {
     other.q *= 1.1;
     adjoint.take(before, history, other, repeated);  // which is not gone on to
     const MotionTangents start = some_tangents(parameters, length), at_end = some_tangents(quantities, 7);
-    const Matrix residual = some(3, parameters, 5);
+    const Rows residual = some(3, parameters, 5);
     const Eigen::Vector3d later(0.3, -0.8, 0.1);
     const double by_time = -0.37;
     const Eigen::RowVectorXd longer = by_time * start.t;
-    const Matrix whole = residual + later * (start.t + longer);
+    const Rows whole = residual + later * (start.t + longer);
     const MotionTangents end = tangent.end(start, longer, whole.topRows(2), whole.bottomRows(1));
-    Matrix mu;
+    Rows mu;
     ASSERT_TRUE(adjoint.find_multipliers(at_end, mu));
     const Eigen::MatrixXd forward = product(at_end, end);
     const Eigen::MatrixXd back =
@@ -130,7 +130,7 @@ TEST(StepAdjoint, ForgetsHowFastCorrectionsShrinkWhereStepsChangeTheirLength) {
     const auto multipliers_of = [&](StepAdjoint& of) {
       of.take(before, history, integrator.state(), false);
       of.go_on();
-      Matrix mu;
+      Rows mu;
       EXPECT_TRUE(of.find_multipliers(end, mu));
       return mu(0, 0);
     };
