@@ -98,7 +98,11 @@ Shape analysis_shape() {
         "equilibrium when omitted"},
        {"bodies", choice({"held", "free"}),
         "sliding bodies are locked at their `at`, or slide without friction, about their equilibrium; held when "
-        "omitted"}});
+        "omitted"},
+       {"speeds", array(quantity(Dimension::angular_speed, {.lower = 0, .upper = 1e6}), 2),
+        "natural frequencies over these speeds of rotation, increasing, and the critical speeds between them: "
+        "of the `rotor` of rigid bodies, those after the first at their own ratio to it; without rotors of "
+        "the `frame`"}});
   const Shape accuracy = object(
       {{"target", quantity(Dimension::part, accuracy_target_range()),
         "refines elements and steps until the errors of what is asked are below this part of their scales"},
@@ -166,7 +170,8 @@ CaseAnalysis read_analysis(const Json& json, bool nothing_deforms, Findings& fin
                  "has no effect but with the type \"modes\" or \"buckling\"");
   analysis.modes = {.count = optional_integer(modes, "count").value_or(CaseModes{}.count),
                     .about_equilibrium = text(modes, "about") != "drawn",
-                    .bodies_held = text(modes, "bodies") != "free"};
+                    .bodies_held = text(modes, "bodies") != "free",
+                    .speeds = numbers(modes, "speeds")};
   if (dynamic && analysis.is_explicit() && !analysis.step)
     findings.error("analysis.step", "is missing; the explicit method \"rk4\" needs a fixed step");
   return analysis;

@@ -260,9 +260,35 @@ void check_laws_of_buckling(const CaseFile& c, Findings& findings) {
     if (connector.rows) refuse(connector.path + ".stiffness");
 }
 
+/// Speeds are of something that turns.
+void check_speeds(const CaseFile& c, Findings& findings) {
+  const std::vector<double>& speeds = c.analysis.modes.speeds;
+  if (speeds.empty()) return;
+  const char* key = "analysis.modes.speeds";
+  constexpr int digits = 7;
+  for (std::size_t i = 0; i + 1 < speeds.size(); ++i)
+    if (!(speeds[i] < speeds[i + 1]))
+      findings.error(child(key, i + 1), "is " + text_of(speeds[i + 1], digits) + " after " +
+                                            text_of(speeds[i], digits) + "; speeds must increase");
+  if (c.analysis.type == CaseAnalysis::Type::buckling)
+    findings.error(key, "is of natural frequencies; leave it out, or give the type \"modes\"");
+  std::vector<const CaseBody*> rotors;
+  for (const CaseBody& body : c.bodies)
+    if (body.rotor.inertia > 0) rotors.push_back(&body);
+  if (rotors.size() > 1 && rotors.front()->rotor.speed == 0)
+    findings.error(child(rotors.front()->path, "rotor.speed"),
+                   "is 0, and the other rotors turn at their ratio to it under \"modes\": \"speeds\"; give "
+                   "speeds in that ratio");
+  if (rotors.empty() && !(c.field && !c.field->rate.isZero(0)))
+    findings.error(key,
+                   "has nothing that turns; give a rigid body a \"rotor\", or the case a \"frame\" "
+                   "with a \"rate\"");
+}
+
 /// Small vibrations and buckling want loads with an energy; buckling wants loads.
 void check_modes(const CaseFile& c, Findings& findings) {
   if (!c.analysis.has_modes()) return;
+  check_speeds(c, findings);
   const bool buckling = c.analysis.type == CaseAnalysis::Type::buckling;
   if (buckling && c.loads.empty())
     findings.error(

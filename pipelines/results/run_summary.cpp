@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <stdexcept>
 
 #include "cad_import/files/atomic_file.h"
@@ -123,6 +124,18 @@ Json to_json(const ModeTable& table) {
   return list;
 }
 
+Json to_json(const SpeedTable& table) {
+  Json lines = Json::array(), critical = Json::array();
+  for (const SpeedLine& line : table.lines) {
+    Json frequencies = Json::array();  // null where it is none of the modes found
+    for (const double omega : line.omega) frequencies.push_back(omega / (2 * std::numbers::pi));
+    lines.push_back({{"name", line.name()}, {"whirl", line.whirl}, {"frequency [Hz]", frequencies}});
+  }
+  for (const CriticalSpeed& each : table.critical)
+    critical.push_back({{"speed [rad/s]", each.speed}, {"line", each.line}});
+  return {{"speeds [rad/s]", table.speeds}, {"lines", lines}, {"critical_speeds", critical}};
+}
+
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 Json to_json(const AccuracyLevel& run) {
@@ -209,6 +222,7 @@ Json to_json(const RunSummary& summary) {
     json[summary.modes->buckling ? "buckling" : "modes"] = to_json(*summary.modes);
     if (!summary.modes->buckling) json["mass [kg]"] = summary.modes->mass;
   }
+  if (summary.speeds) json["modes_over_speed"] = to_json(*summary.speeds);
   if (summary.accuracy) add_errors(*summary.accuracy, summary, json);
   return json;
 }

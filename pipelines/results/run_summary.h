@@ -14,6 +14,7 @@
 #include "pipelines/results/evidence.h"
 #include "pipelines/results/mode_table.h"
 #include "pipelines/results/run_extremes.h"
+#include "pipelines/results/speed_table.h"
 
 namespace nurbeam {
 
@@ -80,6 +81,7 @@ struct RunSummary {
   std::vector<RunExtreme> extremes;
   std::vector<CollectorOutcome> collectors = {};
   std::optional<ModeTable> modes = {};  ///< of an analysis of modes or buckling
+  std::optional<SpeedTable> speeds = {};  ///< of modes over speeds of rotation
   std::optional<Accuracy> accuracy = {};
   std::vector<FeatureEvidence> evidence;
   std::vector<Diagnostic> diagnostics;

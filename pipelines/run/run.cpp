@@ -44,6 +44,7 @@
 #include "pipelines/run/run_outputs.h"
 #include "pipelines/run/signals.h"
 #include "pipelines/run/simulation_plan.h"
+#include "pipelines/run/speed_run.h"
 #include "solver/algebra/side_by_side.h"
 
 namespace nurbeam {
@@ -215,6 +216,17 @@ class Run {
       summary_.diagnostics.push_back(*warning);
     }
     summary_.modes = std::move(table);
+    return with_speeds(report);
+  }
+
+  // Natural frequencies over speeds of rotation, where these are asked for.
+  SimulationReport with_speeds(SimulationReport report) {
+    if (case_.analysis.modes.speeds.empty()) return report;
+    summary_.speeds = modes_over_speed(case_, built_, interruption(), report);
+    if (!summary_.speeds) return report;
+    write_speed_table(options_.out / "speeds.csv", *summary_.speeds);
+    for (const CriticalSpeed& each : summary_.speeds->critical)
+      options_.quiet ? void(*log_ << critical_text(each) << std::endl) : tell(critical_text(each));
     return report;
   }
 

@@ -10,6 +10,7 @@
 #include "fem/motion/rest/modes.h"
 #include "nurbs/number_text.h"
 #include "pipelines/run/mode_run.h"
+#include "pipelines/run/speed_run.h"
 #include "pipelines/verification/noted.h"
 #include "pipelines/verification/rope_cases.h"
 #include "pipelines/verification/verify.h"
@@ -271,6 +272,43 @@ VerifyResult rotor() {
   return result;
 }
 
+/// A disc at the end of a light shaft: where it turns at Omega, an imbalance moves it as
+///   det(K - Omega^2 diag(m, J - s Jp)) = 0, s = 1 forwards and -1 backwards,
+/// with the stiffness K of the shaft's end in displacement and slope.
+VerifyResult critical_speeds() {
+  constexpr double length = 0.6, EI = 2000, mass = 8, across = 0.09, along = 0.05;
+  const CaseFileReport read = read_case_text(
+      "{ " + shaft(length, 1e9, EI, 1e6, 1e-5, 8) +
+          R"("supports": [{ "beam": "bar", "at": "start", "type": "clamped" }], "bodies": [{ "name": "disc", "mass": )" +
+          text_of(mass) + R"(, "position": [0.6, 0, 0], "inertia": [0.05, 0.09, 0.09],
+          "rotor": { "axis": [1, 0, 0], "inertia": 0.05, "speed": 1 } }],
+          "joints": [{ "between": [{ "body": "disc" }, { "beam": "bar", "at": "end" }], "type": "rigid" }],
+          "analysis": { "type": "modes", "modes": { "count": 4, "speeds": [0, 20, 100, 300, 700] } } })",
+      "case");
+  if (!read.value) throw std::runtime_error(read.diagnostics.front().message);
+  const BuildReport built = build_model(*read.value);
+  if (!built.value) throw std::runtime_error(built.diagnostics.front().message);
+  (void)noted(built.value->model, modes_options(read.value->analysis));
+  SimulationReport report;
+  const std::optional<SpeedTable> found = modes_over_speed(
+      *read.value, *built.value, [] { return false; }, report);
+  if (!found) throw std::runtime_error("the modes were not found");
+  const double k = 12 * EI / std::pow(length, 3), c = 6 * EI / (length * length), r = 4 * EI / length;
+  VerifyResult result;
+  for (const auto& [sign, name] : {std::pair{1, "forward "}, {-1, "backward "}}) {
+    const double J = across - sign * along, b = mass * r + J * k;
+    const double root = std::sqrt(b * b - 4 * mass * J * (k * r - c * c));
+    for (const int number : {1, 2}) {
+      const std::string line = name + std::to_string(number);
+      const auto there = std::ranges::find(found->critical, line, &CriticalSpeed::line);
+      const double exact = std::sqrt((b + (number == 1 ? -root : root)) / (2 * mass * J));
+      result.add("critical speed of " + line + " [rad/s]", exact, "massless shaft",
+                 there == found->critical.end() ? 0 : there->speed, 1e-5 * exact);
+    }
+  }
+  return result;
+}
+
 /// Wilberforce's pendulum about its drawing: a body under a light coil. Beside a body of 1e5 times the mass
 /// of that of the reference the coil is light.
 VerifyResult wilberforce() {
@@ -342,6 +380,7 @@ std::vector<VerifyProblem> turning_problems() {
           {"bodies-B3", measures + ", torsion", disc_on_a_shaft},
           {"bodies-R4", "rigid bodies", small_swings},
           {"bodies-B5", measures + ", torsion", rotor},
+          {"critical-speeds", measures + ", torsion", critical_speeds},
           {"bodies-B7", measures + ", torsion", wilberforce},
           {"bodies-T5", measures, arm_that_spins},
           {"bodies-T6", measures, shaft_that_spins}};

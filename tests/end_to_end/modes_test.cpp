@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -114,6 +116,57 @@ TEST(Modes, OfACantileverAreInTheTableTheSummaryAndTheFrames) {
   EXPECT_EQ(run_command_line({"run", again.string(), "--quiet", "--out", results.string()}, out, err), 0);
   EXPECT_FALSE(std::filesystem::exists(results / "mode_5.pvd"));
   EXPECT_FALSE(std::filesystem::exists(results / "frames" / "mode_5_beams_000000.vtu"));
+}
+
+/// A disc on the end of a shaft of steel; `more` of the disc.
+std::string disc_on_a_shaft(const std::string& more, const std::string& modes) {
+  return cantilever_case(
+      R"({ "type": "modes", "modes": )" + modes + " }",
+      R"("gravity": [0, 0, 0], "bodies": [{ "name": "disc", "mass": 4, "position": [2, 0, 0], "inertia": [0.05, 0.03, 0.03])" +
+          more +
+          R"( }], "joints": [{ "between": [{ "body": "disc" }, { "beam": "bar", "at": "end" }], "type": "rigid" }],)");
+}
+
+TEST(ModesOverSpeed, AreThoseOfEachSpeedAndMeetItAtCriticalSpeeds) {
+  const auto spins = [](double speed) {
+    return R"(, "rotor": { "axis": [1, 0, 0], "inertia": 0.05, "speed": )" + std::to_string(speed) + " }";
+  };
+  Left over;
+  run_modes_text(disc_on_a_shaft(spins(3), R"({ "count": 4, "speeds": ["0 rad/s", 4, 9, 100] })"), over);
+  ASSERT_EQ(over.code, 0) << over.messages;
+  const auto& table = over.run["modes_over_speed"];
+  ASSERT_EQ(table["lines"].size(), 4u);
+  EXPECT_EQ(table["lines"][0]["name"], "backward 1");
+  EXPECT_EQ(table["lines"][3]["name"], "forward 2");
+  Left at_9;
+  run_modes_text(disc_on_a_shaft(spins(9), R"({ "count": 4 })"), at_9);
+  const std::vector<double> modes = numbers_of(at_9, "modes", "frequency [Hz]");
+  for (const auto& [line, mode] : {std::pair{0, 0}, {2, 1}, {1, 2}, {3, 3}})
+    EXPECT_NEAR(table["lines"][line]["frequency [Hz]"][2].get<double>(), modes.at(mode), 1e-9) << line;
+  ASSERT_GE(table["critical_speeds"].size(), 2u);
+  const double critical = table["critical_speeds"][1]["speed [rad/s]"];
+  EXPECT_EQ(table["critical_speeds"][0]["line"], "backward 1");
+  EXPECT_EQ(table["critical_speeds"][1]["line"], "forward 1");
+  EXPECT_NE(over.messages.find("critical speed: "), std::string::npos) << over.messages;
+  Left there;
+  run_modes_text(disc_on_a_shaft(spins(critical), R"({ "count": 4 })"), there);
+  EXPECT_NEAR(2 * pi * numbers_of(there, "modes", "frequency [Hz]").at(1), critical, 1e-5 * critical);
+  const std::string file = text_of_file(over.directory.path() / "results" / "speeds.csv");
+  EXPECT_TRUE(file.starts_with("speed [rad/s],backward 1 [Hz],")) << file;
+  EXPECT_EQ(std::ranges::count(file, '\n'), 5);
+}
+
+TEST(ModesOverSpeed, AreRefusedWhereNothingTurns) {
+  const std::string rotor = R"(, "rotor": { "axis": [1, 0, 0], "inertia": 0.05, "speed": 3 })";
+  for (const auto& [more, speeds, said] :
+       {std::array<std::string, 3>{"", "[0, 1]", "analysis.modes.speeds: has nothing that turns"},
+        {rotor, "[2, 1]", "analysis.modes.speeds[1]: is 1 after 2"},
+        {rotor, "[1]", "analysis.modes.speeds"}}) {
+    Left left;
+    run_modes_text(disc_on_a_shaft(more, R"({ "speeds": )" + speeds + " }"), left);
+    EXPECT_EQ(left.code, 2);
+    EXPECT_NE(left.messages.find(said), std::string::npos) << left.messages;
+  }
 }
 
 // One element of a planar cantilever: its end has two coordinates of place and two of slope.

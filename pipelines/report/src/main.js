@@ -3,7 +3,7 @@ import { css_gradient } from './colours.js';
 import { read_data } from './data.js';
 import { element, number, readable_unit } from './format.js';
 import { start_exaggeration } from './exaggeration.js';
-import { modes_of, modes_table, start_modes } from './modes.js';
+import { critical_table, modes_of, modes_table, speeds_plot, start_modes } from './modes.js';
 import { Player, speeds } from './player.js';
 import { AlongPlot, Plot, plots_of } from './plots.js';
 import { accuracy_line, collector_tables, diagnostics_list, energy_table, events_table, evidence_table, extremes_table, model_tables, run_tables, values_tables } from './tables.js';
@@ -256,10 +256,26 @@ function on_key(event) {
   }
 }
 
+/** Draws plots for the width that they have, whenever it changes. */
+function keep_laid_out(shown) {
+  const layout = () => {
+    for (const plot of shown) {
+      plot.layout(Math.floor(plot.element.clientWidth - 24));
+    }
+  };
+  new ResizeObserver(layout).observe($('plots'));
+  layout();
+}
+
 function start_plots() {
   if (is_static) {
     $('plots-title').textContent = 'Values';
-    $('plots').append(...[has_modes ? modes_table(run) : null, ...values_tables(data)].filter(Boolean));
+    const over_speed = speeds_plot(run);
+    $('plots').append(...[over_speed?.element, critical_table(run), has_modes ? modes_table(run) : null, ...values_tables(data)]
+      .filter(Boolean));
+    if (over_speed) {
+      keep_laid_out([over_speed]);
+    }
     return;
   }
   const mesh_kinds = ['split', 'merge'];
@@ -288,13 +304,7 @@ function start_plots() {
     }
   });
   $('plots').append(...plots.map((plot) => plot.element));
-  const layout = () => {
-    for (const plot of plots) {
-      plot.layout(Math.floor(plot.element.clientWidth - 24));
-    }
-  };
-  new ResizeObserver(layout).observe($('plots'));
-  layout();
+  keep_laid_out(plots);
   if (marks.mesh.length || marks.body.length) {
     $('plots-note').textContent = 'Short marks above the time axis: elements split or merged. '
       + (marks.body.length ? 'Dashed lines: a body left its beam or stopped. ' : '');

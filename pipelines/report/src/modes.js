@@ -1,5 +1,6 @@
 // Modes of vibration and buckling: the state that they are about swings in the shape of one of them.
 import { element, number } from './format.js';
+import { Plot } from './plots.js';
 import { table_of } from './tables.js';
 
 /** The modes of a run, as run.json has them; none in runs that have no such thing. */
@@ -17,6 +18,36 @@ export const modes_table = (run) => (run.modes
     mode: mode.number, 'frequency [Hz]': mode['frequency [Hz]'], 'period [s]': mode['period [s]'] && Number(mode['period [s]'].toPrecision(4)),
     'effective mass in x, y, z [%]': percents(mode['effective_mass [kg]'], run['mass [kg]']) })))
   : table_of('Factors of the loads', modes_of(run)));
+
+/** Natural frequencies over the speed of rotation (Campbell), with the line that they meet at critical speeds; nothing of runs
+ *  without such speeds. */
+export function speeds_plot(run) {
+  const over = run?.modes_over_speed;
+  if (!over) {
+    return null;
+  }
+  const speeds = over['speeds [rad/s]'], critical = over.critical_speeds;
+  const series = over.lines.map(({ name, 'frequency [Hz]': values }) => ({ name, values: values.map((value) => value ?? NaN) }));
+  if (critical.length > 0) {
+    series.push({ name: '1× speed', values: speeds.map((speed) => speed / (2 * Math.PI)) });
+  }
+  const marks = { mesh: [], body: critical.map(({ 'speed [rad/s]': speed, line }) =>
+    ({ time: speed, text: `critical speed ${number(speed)} rad/s: ${line}` })) };
+  const plot = new Plot({ title: 'Natural frequencies over speed', unit: 'Hz', series, time_unit: 'rad/s' }, speeds, marks,
+    (at) => {
+      const near = speeds.reduce((best, speed, i) => (Math.abs(speed - at) < Math.abs(speeds[best] - at) ? i : best), 0);
+      plot.move_cursor(near);
+      plot.read(near);
+    });
+  plot.element.dataset.plot = 'speeds';
+  return plot;
+}
+
+/** The critical speeds of a run; speeds.csv has the frequencies. */
+export const critical_table = (run) => (run?.modes_over_speed?.critical_speeds.length
+  ? table_of('Critical speeds', run.modes_over_speed.critical_speeds.map(({ 'speed [rad/s]': speed, line }) =>
+    ({ 'speed [rad/s]': speed, 'speed [rev/min]': Number((speed * 30 / Math.PI).toPrecision(4)), line })))
+  : null);
 
 /** Frame 0 of the page's data is the state, the frame at time i its shape in mode i. */
 class Swing {

@@ -223,7 +223,7 @@ export class Plot {
         d: path_of(time, values, x_of, y_of, Math.round(width - left - right), this.steps) }));
     }
     svg.replaceChildren(...parts, this.cursor);
-    svg.setAttribute('aria-label', `${this.title} [${this.unit}] from ${number(start)} s to ${number(end)} s: `
+    svg.setAttribute('aria-label', `${this.title} [${this.unit}] from ${number(start)} to ${number(end)} ${this.time_unit}: `
       + this.series.map(({ name, values }) => `${name} ends at ${number(values[values.length - 1])}`).join(', '));
     this.move_cursor(this.frame ?? 0);
     this.read(this.frame ?? 0);
