@@ -165,6 +165,33 @@ int whirl(const MeshedState& at, const Vector& now, const Vector& then) {
       .sense();
 }
 
+/// The lowest vibrations without gyroscopic forces: `wanted` of them to all digits, which a search for many
+/// loses where the last is far above the first, and more, orthogonal to them, up to `many` in all.
+std::optional<SquaredFrequencies> wide_space(const Matrix& kkt, const Matrix& mass_kkt, const Matrix& M,
+                                             int wanted, int many, const std::function<void()>& between) {
+  constexpr double same = 0.5;  // part of a unit vector that is new: less where a frequency is shared
+  const auto n = static_cast<int>(M.rows());
+  std::optional<SquaredFrequencies> space = lowest_frequencies(kkt, mass_kkt, n, wanted, between);
+  if (!space || many <= wanted) return space;
+  const auto wide = lowest_frequencies(kkt, mass_kkt, n, many, between);
+  if (!wide) return std::nullopt;
+  const auto append = [](auto& list, const auto& more) {
+    list.conservativeResize(Eigen::NoChange, list.cols() + 1);
+    list.rightCols(1) = more;
+  };
+  Eigen::RowVectorXd values = space->values.transpose();
+  for (Eigen::Index i = 0; i < wide->values.size() && space->shapes.cols() < many; ++i) {
+    Vector x = wide->shapes.col(i);
+    for (int pass = 0; pass < 2; ++pass) x -= space->shapes * (space->shapes.transpose() * (M * x)).eval();
+    const double size = std::sqrt(x.dot(M * x));
+    if (!(size > same)) continue;
+    append(space->shapes, x / size);
+    append(values, Eigen::Matrix<double, 1, 1>(wide->values[i]));
+  }
+  space->values = values.transpose();
+  return space;
+}
+
 std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::function<void()>& between,
                                        ModesReport& report) {
   const BeamSystem& system = *report.at.system;
@@ -178,7 +205,7 @@ std::optional<Failure> find_vibrations(int count, const Matrix& kkt, const std::
   constexpr int more = 30;  // the space in which gyroscopic forces are
   const int wanted = std::min(count, most);
   auto found =
-      lowest_frequencies(kkt, mass_kkt, n, gyroscopic ? std::min(4 * count + more, most) : wanted, between);
+      wide_space(kkt, mass_kkt, M, wanted, gyroscopic ? std::min(4 * count + more, most) : wanted, between);
   if (!found) return failure_of(Failure::Kind::eigenvalues);
   std::optional<Whirling> whirling;
   if (gyroscopic) {
