@@ -789,6 +789,7 @@ TEST_F(CaseFileTest, TheSchemaNamesExactlyTheKeysTheReaderTakes) {
                                                "over",
                                                "polyline",
                                                "speed",
+                                               "speeds",
                                                "torsion",
                                                "orientation",
                                                "up",
