@@ -80,7 +80,7 @@ struct RunSummary {
   Mismatch axial_mismatch;
   std::vector<RunExtreme> extremes;
   std::vector<CollectorOutcome> collectors = {};
-  std::optional<ModeTable> modes = {};  ///< of an analysis of modes or buckling
+  std::optional<ModeTable> modes = {};    ///< of an analysis of modes or buckling
   std::optional<SpeedTable> speeds = {};  ///< of modes over speeds of rotation
   std::optional<Accuracy> accuracy = {};
   std::vector<FeatureEvidence> evidence;

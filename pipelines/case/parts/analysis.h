@@ -17,7 +17,8 @@ struct CaseModes {
   int count = 10;
   bool about_equilibrium = true;  ///< else as drawn, without loads
   bool bodies_held = true;
-  std::vector<double> speeds = {};  ///< of rotors, or of the frame, of each a set of modes [rad/s], increasing
+  std::vector<double> speeds =
+      {};  ///< of rotors, or of the frame, of each a set of modes [rad/s], increasing
 };
 
 /// What is asked of the errors of mesh and step.
