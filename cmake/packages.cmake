@@ -66,7 +66,7 @@ set(CPACK_DEBIAN_FREECAD_PACKAGE_NAME freecad-nurbeam)
 set(CPACK_DEBIAN_FREECAD_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FREECAD_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_FREECAD_PACKAGE_DEPENDS
-  "nurbeam (= ${PROJECT_VERSION}), python3-nurbeam (= ${PROJECT_VERSION}), freecad (>= 0.20)")
+  "python3, nurbeam (= ${PROJECT_VERSION}), python3-nurbeam (= ${PROJECT_VERSION}), freecad (>= 0.20)")
 set(CPACK_COMPONENT_FREECAD_DESCRIPTION "FreeCAD workbench of nurbeam
  Flexible beams along curves of a document, with bodies that slide on them,
  and cables of a given length between connectors.")
