@@ -209,21 +209,25 @@ class Run {
       options_.quiet ? void(*log_ << mode_text(table, i) << std::endl) : tell(mode_text(table, i));
     for (const auto& warning :
          {round_off_warning(case_.path, built_.model, table), coarse_waves_warning(case_.path, table),
-          short_waves_warning(case_.path, table)}) {
-      if (!warning) continue;
-      messages_.findings({*warning});
-      print_diagnostics(*log_, {*warning});
-      summary_.diagnostics.push_back(*warning);
-    }
+          short_waves_warning(case_.path, table)})
+      if (warning) warn(*warning);
     summary_.modes = std::move(table);
     return with_speeds(report);
+  }
+
+  void warn(const Diagnostic& warning) {
+    messages_.findings({warning});
+    print_diagnostics(*log_, {warning});
+    summary_.diagnostics.push_back(warning);
   }
 
   // Natural frequencies over speeds of rotation, where these are asked for.
   SimulationReport with_speeds(SimulationReport report) {
     if (case_.analysis.modes.speeds.empty()) return report;
-    summary_.speeds = modes_over_speed(case_, built_, interruption(), report);
+    Findings findings(case_.path.string());
+    summary_.speeds = modes_over_speed(case_, built_, interruption(), report, findings);
     if (!summary_.speeds) return report;
+    for (const Diagnostic& finding : findings.take()) warn(finding);
     write_speed_table(options_.out / "speeds.csv", *summary_.speeds);
     for (const CriticalSpeed& each : summary_.speeds->critical)
       options_.quiet ? void(*log_ << critical_text(each) << std::endl) : tell(critical_text(each));

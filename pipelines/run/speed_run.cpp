@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fem/motion/rest/modes.h"
+#include "nurbs/number_text.h"
 #include "pipelines/run/mode_run.h"
 
 namespace nurbeam {
@@ -84,34 +85,43 @@ Found named_as(const Found& next, const std::vector<Mode>& next_modes, const std
 }
 
 // Where a line meets the speed between two speeds at which it is above and below it: by the secant, held in
-// brackets (Illinois).
-double meeting(const SpeedRun& run, const std::pair<int, int>& line, std::array<double, 2> speed,
-               std::array<double, 2> excess) {
-  constexpr int most = 40;
+// brackets (Illinois). Nothing where the line jumps over it, as where its modes get another whirl.
+std::optional<double> meeting(const SpeedRun& run, const std::pair<int, int>& line,
+                              std::array<double, 2> speed, std::array<double, 2> excess) {
+  constexpr int most = 60;
   constexpr double close = 1e-10;
+  int kept_before = -1;
   for (int i = 0; i < most; ++i) {
     const double guess = (speed[0] * excess[1] - speed[1] * excess[0]) / (excess[1] - excess[0]);
     const Found found = SpeedRun::by_whirl(run.at(guess));
     const auto there = found.find(line);
-    if (there == found.end()) return guess;
+    if (there == found.end()) return std::nullopt;
     const double value = there->second - guess;
     if (std::abs(value) < close * guess) return guess;
-    const int same = (value > 0) == (excess[0] > 0) ? 0 : 1;
-    speed[same] = guess;
-    excess[same] = value;
-    excess[1 - same] /= 2;
+    const int kept = (value > 0) == (excess[0] > 0) ? 1 : 0;
+    speed[1 - kept] = guess;
+    excess[1 - kept] = value;
+    if (kept == kept_before) excess[kept] /= 2;
+    kept_before = kept;
   }
-  return (speed[0] + speed[1]) / 2;
+  return std::nullopt;
 }
 
-void add_critical(const SpeedRun& run, SpeedTable& table) {
+void add_critical(const SpeedRun& run, SpeedTable& table, Findings& findings) {
+  constexpr int digits = 7;
   for (const SpeedLine& line : table.lines)
     for (std::size_t i = 0; i + 1 < table.speeds.size(); ++i) {
       const double from = line.omega[i] - table.speeds[i], to = line.omega[i + 1] - table.speeds[i + 1];
       if (!(from * to < 0)) continue;  // nor where one is not a number
-      table.critical.push_back(
-          {meeting(run, {line.whirl, line.number}, {table.speeds[i], table.speeds[i + 1]}, {from, to}),
-           line.name()});
+      const std::array<double, 2> ends{table.speeds[i], table.speeds[i + 1]};
+      if (const auto speed = meeting(run, {line.whirl, line.number}, ends, {from, to}))
+        table.critical.push_back({*speed, line.name()});
+      else
+        findings.warn("analysis.modes.speeds", "line " + line.name() + " jumps over the speed between " +
+                                                   text_of(ends[0], digits) + " and " +
+                                                   text_of(ends[1], digits) +
+                                                   " rad/s, so that no critical speed is told there; give "
+                                                   "speeds between them, or a larger \"count\"");
     }
   std::ranges::sort(table.critical, {}, &CriticalSpeed::speed);
 }
@@ -139,12 +149,12 @@ SpeedTable table_of(const SpeedRun& run, const std::vector<double>& speeds) {
 }  // namespace
 
 std::optional<SpeedTable> modes_over_speed(const CaseFile& c, const BuiltModel& built,
-                                           const std::function<bool()>& interrupted,
-                                           SimulationReport& report) {
+                                           const std::function<bool()>& interrupted, SimulationReport& report,
+                                           Findings& findings) {
   const SpeedRun run(c, built, interrupted);
   try {
     SpeedTable table = table_of(run, c.analysis.modes.speeds);
-    if (run.has_rotors()) add_critical(run, table);
+    if (run.has_rotors()) add_critical(run, table, findings);
     return table;
   } catch (const Stopped& stopped) {
     if (stopped.failure)

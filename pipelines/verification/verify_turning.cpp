@@ -290,8 +290,9 @@ VerifyResult critical_speeds() {
   if (!built.value) throw std::runtime_error(built.diagnostics.front().message);
   (void)noted(built.value->model, modes_options(read.value->analysis));
   SimulationReport report;
+  Findings findings("case");
   const std::optional<SpeedTable> found = modes_over_speed(
-      *read.value, *built.value, [] { return false; }, report);
+      *read.value, *built.value, [] { return false; }, report, findings);
   if (!found) throw std::runtime_error("the modes were not found");
   const double k = 12 * EI / std::pow(length, 3), c = 6 * EI / (length * length), r = 4 * EI / length;
   VerifyResult result;
